@@ -15,9 +15,9 @@
 #include "logs.hpp"
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/belief/advise.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 #include "table.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "outlines.hpp"
 #include "program.hpp"
 #include "questions.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "table.hpp"
 
 namespace {

@@ -6,9 +6,9 @@
 
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "table.hpp"
 
 namespace {

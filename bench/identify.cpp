@@ -10,10 +10,9 @@
 #include "child.hpp"
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/rolling.hpp"
 #include "table.hpp"
 
 namespace {

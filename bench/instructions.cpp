@@ -12,10 +12,10 @@
 #include "outlines.hpp"
 #include "program.hpp"
 #include "questions.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 
 /// By its name valgrind knows what to count.
 extern "C" [[gnu::noinline]] void measured_query(const std::function<void()>& query) { query(); }

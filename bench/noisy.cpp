@@ -11,7 +11,7 @@
 #include "outlines.hpp"
 #include "peers/particle_filter.hpp"
 #include "program.hpp"
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 #include "table.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include "outlines.hpp"
 #include "program.hpp"
 #include "questions.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "table.hpp"
 
 namespace {

@@ -16,8 +16,8 @@
 #include "program.hpp"
 #include "questions.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/march/march.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/outline.hpp"
 #include "table.hpp"
 
 namespace {

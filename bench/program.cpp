@@ -9,8 +9,8 @@
 #include "child.hpp"
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/outline.hpp"
 #include "table.hpp"
 
 namespace {

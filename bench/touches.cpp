@@ -13,7 +13,7 @@
 
 #include "peers/touch_poses.hpp"
 #include "program.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "table.hpp"
 #include "touch/touch_cases.hpp"
 

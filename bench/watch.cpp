@@ -12,8 +12,8 @@
 #include "child.hpp"
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/log.hpp"
 #include "table.hpp"
 
 namespace {

@@ -27,14 +27,20 @@ endfunction()
 
 file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
 file(GLOB_RECURSE core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp)
-foreach(room IN ITEMS march files catalog draw capi)
-  set(${room}_sources ${core_sources})
-  set(${room}_headers ${core_headers})
-  list(FILTER ${room}_sources INCLUDE REGEX "/src/${room}/")
-  list(FILTER ${room}_headers INCLUDE REGEX "/rollfix/${room}/")
-endforeach()
-list(FILTER core_sources EXCLUDE REGEX "/src/(march|files|catalog|draw|capi)/")
-list(FILTER core_headers EXCLUDE REGEX "/rollfix/(march|files|catalog|draw)/")
+# rollfix_rooms_of(LIBRARY ROOMS HEADERS): which of these are its own and not the core's.
+macro(rollfix_rooms_of library rooms headers)
+  set(${library}_sources ${core_sources})
+  set(${library}_headers ${core_headers})
+  list(FILTER ${library}_sources INCLUDE REGEX "/src/(${rooms})/")
+  list(FILTER ${library}_headers INCLUDE REGEX "/rollfix/(${headers})[.]hpp")
+  list(FILTER core_sources EXCLUDE REGEX "/src/(${rooms})/")
+  list(FILTER core_headers EXCLUDE REGEX "/rollfix/(${headers})[.]hpp")
+endmacro()
+rollfix_rooms_of(march "march" "march")
+rollfix_rooms_of(files "files|documents" "files|documents")
+rollfix_rooms_of(catalog "catalog" "identify")
+rollfix_rooms_of(draw "draw" "draw")
+rollfix_rooms_of(capi "capi" "none")
 
 rollfix_library(rollfix rollfix
   SOURCES ${core_sources}

@@ -2,8 +2,8 @@
 //
 //   c++ -std=c++20 examples/09_drawing.cpp $(pkg-config --cflags --libs rollfix-files rollfix-draw) -o draw && ./draw
 #include <cstdio>
-#include <rollfix/draw/figures.hpp>
-#include <rollfix/files/load_part.hpp>
+#include <rollfix/draw.hpp>
+#include <rollfix/files.hpp>
 #include <rollfix/rollfix.hpp>
 #include <string>
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/teach.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/teach.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "files/byte_stream.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace {
 

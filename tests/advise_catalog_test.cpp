@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "catalogs.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 
 namespace advise_catalog_test {
 namespace {

@@ -7,8 +7,7 @@
 #include "belief_cases.hpp"
 #include "cli.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/next_roll.hpp"
-#include "rollfix/belief/advise.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
 
 // The next roll: what is promised of it, and that it keeps what it promises.

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/turning_function.hpp"
 
 /// Noisy rolls of a disk, and what they make believe.
 namespace belief_cases {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "answer/weighing.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace belief_closed_forms_test {

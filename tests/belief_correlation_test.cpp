@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "belief_cases.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 namespace belief_correlation_test {
 namespace {

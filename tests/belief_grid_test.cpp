@@ -7,7 +7,7 @@
 
 #include "belief/one/grid.hpp"
 #include "belief_cases.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 // What a posterior costs follows the part's shape, however many points its outline was given by.

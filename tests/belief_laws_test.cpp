@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "belief_cases.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace belief_laws_test {
 namespace {

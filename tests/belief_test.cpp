@@ -7,7 +7,7 @@
 #include "belief/nodes.hpp"
 #include "belief_cases.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 // The posterior over the whole boundary: in the cases that are special.

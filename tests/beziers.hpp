@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace beziers {
 

@@ -1,5 +1,5 @@
 // What places and arcs of a boundary are: closed forms, and laws on random ones against places counted one by one.
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include "part/cursor.hpp"
 #include "part/turning_range.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace boundary_test {
 

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "cli.hpp"
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/contact/reading.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/reading.hpp"
 
 /// Small catalogs, and rolls on their parts.
 namespace catalogs {

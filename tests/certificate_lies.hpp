@@ -13,7 +13,7 @@
 #include "pair_liar.hpp"
 #include "random.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
 
 // Every kind of lie about random questions.

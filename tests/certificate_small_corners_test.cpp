@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "certificates.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/part.hpp"
 
 namespace certificate_small_corners_test {
 namespace {

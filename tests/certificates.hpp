@@ -14,11 +14,11 @@
 
 #include "check.hpp"
 #include "random.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 // What tests of certificates have in common: parts, and certificates with a number changed.

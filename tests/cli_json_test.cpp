@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "cli.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace cli_json_test {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "cli.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace cli_march_test {
 namespace {

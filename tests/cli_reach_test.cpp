@@ -6,8 +6,8 @@
 #include <string>
 
 #include "cli.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace cli_reach_test {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "cli.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace cli_reading_test {
 namespace {

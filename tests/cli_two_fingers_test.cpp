@@ -12,13 +12,13 @@
 #include "answer/observation.hpp"
 #include "cli.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/solve.hpp"
 
 namespace cli_two_fingers_test {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "rollfix/contact/finger.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/finger.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 // Fingers with corners, and what they feel by the corners alone: written apart from the library.

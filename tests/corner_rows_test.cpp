@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "corner_fingers.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/solve.hpp"
 
 namespace corner_rows_test {
 namespace {

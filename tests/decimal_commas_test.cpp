@@ -9,8 +9,8 @@
 
 #include "cli.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 #include "text/number.hpp"
 
 namespace rollfix::decimal_commas_test {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/draw/figures.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace draw_test {
 

@@ -9,10 +9,9 @@
 
 #include "draw/legend.hpp"
 #include "draw_helpers.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/draw/figures.hpp"
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 
 namespace draw_identify_test {
 namespace {

@@ -13,10 +13,10 @@
 #include "draw_helpers.hpp"
 #include "noisy_pairs.hpp"
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace draw_noise_test {
 namespace {

@@ -9,7 +9,7 @@
 #include "draw/answer/contours.hpp"
 #include "draw_helpers.hpp"
 #include "pair_cases.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 
 namespace draw_pair_test {

@@ -1,5 +1,5 @@
 // Figures as files: three formats from one drawing, and never half a file.
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The SVG writer: short numbers, well-formed documents whatever the text, the same bytes for the same calls.
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 /// Lengths and areas of drawings by quadrature on their jets, independent of what the library makes of them.
 namespace drawings {

@@ -14,9 +14,9 @@
 
 #include "cli.hpp"
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/solve.hpp"
 
 namespace either_way_test {
 namespace {

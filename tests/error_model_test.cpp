@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 namespace error_model_test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "belief/two/pair_filter.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace felt_turning_test {

@@ -11,12 +11,12 @@
 #include "corner_fingers.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::finger_corners_locate_test {

@@ -9,9 +9,9 @@
 
 #include "corner_fingers.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::finger_corners_test {

@@ -1,5 +1,5 @@
 // Fingers of any convex shape: rolling without slip, seen from outside; both ways of computing it; what can't be.
-#include "rollfix/contact/finger.hpp"
+#include "rollfix/finger.hpp"
 #include "integrated_rolls.hpp"
 
 #include <fmt/format.h>
@@ -13,11 +13,10 @@
 
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/pose.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::finger_test {

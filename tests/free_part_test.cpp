@@ -1,6 +1,6 @@
 // Two disks that roll on a part which is free to move: what their sensors say and how everything moves.
 #include "integrated_rolls.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include "free_roll.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::free_part_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <type_traits>
 
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 /// Small words for tests about two fingers on a part that is free to move.
 namespace free_rolls {

@@ -1,5 +1,5 @@
 // The gallery: the shapes are what their names say, start where the table says, and refuse what is not a shape.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

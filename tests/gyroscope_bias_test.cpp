@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "belief_cases.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace gyroscope_bias_test {
 namespace {

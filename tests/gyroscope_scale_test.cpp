@@ -6,8 +6,8 @@
 
 #include "belief_cases.hpp"
 #include "noisy_pairs.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 
 namespace gyroscope_scale_test {
 namespace {

@@ -9,7 +9,7 @@
 #include "certificates.hpp"
 #include "random.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
 
 // Certificates that the program writes of random outlines of lines and arcs.

@@ -5,7 +5,7 @@
 #include "catalog/bounds/profile.hpp"
 #include "catalogs.hpp"
 #include "random.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace identify_bounds_test {
 namespace {

@@ -10,10 +10,10 @@
 #include "catalog/weights.hpp"
 #include "catalogs.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace identify_test {
 namespace {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/motion.hpp"
+#include "roll/motion.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "integrated_rolls.hpp"
 #include "random.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace joints_test {

@@ -10,7 +10,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "svg_helpers.hpp"
 
 namespace json_outline_test {

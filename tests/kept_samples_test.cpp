@@ -5,7 +5,7 @@
 
 #include "catalog/on_catalog.hpp"
 #include "catalogs.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "watch/kept_samples.hpp"
 
 namespace kept_samples_test {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "oracle/shapes.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace laws {
 

@@ -13,7 +13,7 @@
 
 #include "certify/places.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 // Lies about one finger's answers, told by one who knows the format: from a certificate that is true, one that is not,
 // with all that belongs together changed together.

@@ -1,5 +1,5 @@
 // load_part: whatever a user may name as a part, and what is said of how it was taken.
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 
 #include "cli.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace load_part_test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace locate_kinds_test {

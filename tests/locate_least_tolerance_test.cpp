@@ -10,9 +10,9 @@
 
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace locate_least_tolerance_test {

@@ -9,7 +9,7 @@
 #include "locate/candidates.hpp"
 #include "part/part_data.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace locate_tree_test {

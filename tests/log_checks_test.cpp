@@ -12,11 +12,11 @@
 #include "free_roll.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::log_checks_test {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::log_columns_test {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix::log_errors_test {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 #include "text/number.hpp"
 
 namespace rollfix::log_readings_test {

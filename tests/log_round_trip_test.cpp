@@ -13,10 +13,10 @@
 
 #include "free_roll.hpp"
 #include "random.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::log_round_trip_test {
 namespace {

@@ -1,5 +1,5 @@
 // A log that grows: its samples are those of the file that ends there, and what breaks a file is survived.
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,9 +14,9 @@
 
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::log_stream_test {

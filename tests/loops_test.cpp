@@ -1,5 +1,5 @@
 // loops: a drawing's curves, in whatever order and direction, joined end to end.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include "outline/joining.hpp"
 #include "outline/nesting.hpp"
 #include "random.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace loops_test {
 namespace {

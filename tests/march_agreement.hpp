@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "march_oracle.hpp"
-#include "rollfix/march/march.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace march_oracle {
 

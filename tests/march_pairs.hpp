@@ -16,8 +16,8 @@
 #include <fmt/core.h>
 
 #include "march_oracle.hpp"
-#include "rollfix/march/march.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace march_pairs {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace march_shapes {
 

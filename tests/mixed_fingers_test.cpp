@@ -12,9 +12,9 @@
 
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::mixed_fingers_test {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "free_roll.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/turning_function.hpp"
 
 /// Small words for tests about two fingers' noisy logs.
 namespace noisy_pairs {

@@ -1,5 +1,5 @@
 // Simulated noise: what it is said to be, the same for the same seed, and nothing where it is 0.
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "contact/normal_numbers.hpp"
 #include "refusal.hpp"
+#include "roll/normal_numbers.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::noisy_test {

@@ -11,8 +11,8 @@
 
 #include "outline/chord_turns.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::nose_test {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace outer_face_test {
 namespace {

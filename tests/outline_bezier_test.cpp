@@ -1,5 +1,5 @@
 // Bezier and NURBS curves, and elliptic arcs.
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 #include "random.hpp"
 #include "refusal.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace outline_bezier_test {

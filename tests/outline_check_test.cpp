@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
 
 namespace outline_check_test {
 namespace {

@@ -1,5 +1,5 @@
 // load_outline: what a user may write where a part is asked for.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include <string>
 
 #include "rollfix/error.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "text/text.hpp"
 
 namespace outline_load_test {

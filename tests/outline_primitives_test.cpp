@@ -1,5 +1,5 @@
 // Lines, arcs, cubic spans, and outlines run backwards.
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 #include "shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace outline_primitives_test {
 namespace {

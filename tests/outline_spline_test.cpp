@@ -1,5 +1,5 @@
 // The spline through points: against a dense solve of the conditions that define it, and its rules on corners.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

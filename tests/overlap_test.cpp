@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "contact/convex_body.hpp"
+#include "finger/convex_body.hpp"
 #include "random.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::overlap_test {
 namespace {

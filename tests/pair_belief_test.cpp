@@ -1,5 +1,5 @@
 // Where two fingers can have started on a free part, given a whole noisy log: probabilities, spreads and verdicts.
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 
 #include "noisy_pairs.hpp"
 #include "random.hpp"
-#include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace pair_belief_test {

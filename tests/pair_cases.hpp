@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace pair_cases {
 

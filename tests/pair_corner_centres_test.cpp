@@ -8,9 +8,9 @@
 
 #include "corner_fingers.hpp"
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace pair_corner_centres_test {
 namespace {

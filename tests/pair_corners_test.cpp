@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pair_cases.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_corners_test {

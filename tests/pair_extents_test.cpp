@@ -10,7 +10,7 @@
 #include "pair_cases.hpp"
 #include "random.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_extents_test {

@@ -16,7 +16,7 @@
 
 #include "certify/places.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 // Lies about two fingers' answers, told by one who knows the format: from a certificate that is true, one that is not,

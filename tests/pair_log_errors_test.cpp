@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix::pair_log_errors_test {
 namespace {

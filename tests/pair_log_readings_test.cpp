@@ -12,8 +12,8 @@
 
 #include "free_roll.hpp"
 #include "random.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix::pair_log_readings_test {
 namespace {

@@ -16,8 +16,8 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/reading.hpp"
 
 namespace pair_oracle {
 

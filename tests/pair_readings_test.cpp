@@ -8,7 +8,7 @@
 
 #include "pair_cases.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_readings_test {

@@ -9,7 +9,7 @@
 #include "locate/pair/roll_strips.hpp"
 #include "pair_cases.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace pair_strips_test {
 namespace {

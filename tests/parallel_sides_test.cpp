@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace parallel_sides_test {
 namespace {

@@ -1,6 +1,6 @@
 // What a part knows of its shape, and which outlines it refuses.
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace part_test {

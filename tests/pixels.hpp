@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 /// Images of shapes, for tests of scans.
 namespace pixels {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "refusal.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::points_header_test {
 namespace {

@@ -1,5 +1,5 @@
 // Points files: what is read, and what every kind of bad file is told.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Where a part is in the world, from what fingers feel on it.
-#include "rollfix/contact/pose.hpp"
+#include "rollfix/rolling.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +17,7 @@
 
 #include "free_roll.hpp"
 #include "random.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix::pose_test {
 namespace {

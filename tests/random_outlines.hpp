@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "pair_cases.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 // Random outlines of lines and arcs, with corners both ways, and questions on them.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace reach_radius_test {

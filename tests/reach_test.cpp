@@ -1,6 +1,6 @@
 // Where a finger can touch at all: closed forms, and a dense polyline that knows nothing of the search.
 
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace reach_test {

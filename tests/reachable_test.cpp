@@ -1,6 +1,6 @@
 // Placements that the readings allow and the finger does not.
 
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace readings_test {

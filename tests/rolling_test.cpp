@@ -1,5 +1,5 @@
 // A disk that rolls on a part: what its sensors say, and where it can't go.
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
 #include "integrated_rolls.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::rolling_test {
 namespace {

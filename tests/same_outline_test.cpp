@@ -10,8 +10,8 @@
 #include "files/formats.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace same_outline_test {

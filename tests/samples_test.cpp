@@ -1,5 +1,5 @@
 // A boundary as numbers: against closed forms, and as dense as it is said to be.
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "cli.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace samples_test {
 namespace {

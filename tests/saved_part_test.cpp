@@ -1,5 +1,5 @@
 // A saved part answers as before, to the bit, or is refused.
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 
 #include "files/byte_stream.hpp"
 #include "random.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace saved_part_test {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 /// Points as a scanner gives them, of closed curves.

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::seam_test {
 namespace {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
 
 /// Small words for tests about parts and placements.
 namespace shapes {

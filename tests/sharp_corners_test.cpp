@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace sharp_corners_test {

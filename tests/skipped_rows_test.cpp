@@ -7,7 +7,7 @@
 
 #include "cli.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix::skipped_rows_test {
 namespace {

@@ -1,5 +1,5 @@
 // Points from scans: noise and pixel stairs go, the shape stays.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include "pixels.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "scans.hpp"
 #include "shapes.hpp"
 

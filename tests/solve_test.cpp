@@ -1,5 +1,5 @@
 // From a part and a roll on it to the answer, by one function for one finger and two.
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "refusal.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 
 namespace solve_test {
 namespace {

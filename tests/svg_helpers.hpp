@@ -7,7 +7,7 @@
 #include "drawing_helpers.hpp"
 #include "files/formats.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 /// Small words for tests about SVG files.
 namespace svg_test {

@@ -1,5 +1,5 @@
 // Parts taught by rolling around them.
-#include "rollfix/contact/teach.hpp"
+#include "rollfix/teach.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,11 +14,11 @@
 #include "outline/turning_span.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace teach_test {

@@ -1,6 +1,6 @@
 // The turning function against closed forms and against quadrature that shares nothing with it.
 
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/turning_function.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <numbers>
 
 #include "random.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace turning_function_test {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "refusal.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::units_test {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "belief_cases.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/turning_function.hpp"
 #include "rollfix/watch/watcher.hpp"
 
 namespace watch_again_test {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/contact/noise.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/reading.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace watching {
 

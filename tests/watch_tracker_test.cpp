@@ -5,13 +5,13 @@
 #include <fstream>
 
 #include "catalogs.hpp"
-#include "contact/mirrored.hpp"
 #include "free_roll.hpp"
+#include "log/mirrored.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/catalog/track.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/watch/tracker.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/tracker.hpp"
+#include "rollfix/turning_function.hpp"
 #include "watch_logs.hpp"
 
 namespace watch_tracker_test {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "catalog/on_catalog.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 #include "rollfix/watch/watcher.hpp"
 #include "watch_logs.hpp"
 

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "free_roll.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace weighed_placement_test {
 namespace {

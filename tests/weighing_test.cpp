@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace weighing_test {

@@ -10,10 +10,10 @@
 
 #include "cli.hpp"
 #include "random.hpp"
-#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::wrapped_columns_test {
 namespace {

@@ -6,11 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "files/documents/documents.hpp"
+#include "documents/documents.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/advise/advise_rig.hpp"
 #include "rollfix/advise/advise_touches.hpp"
-#include "rollfix/answer/next_roll.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/measured_arguments.hpp"
@@ -19,13 +18,14 @@
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/travel_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/catalog/identify.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
 #include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/solve.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 

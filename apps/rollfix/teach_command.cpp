@@ -4,20 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "files/documents/documents.hpp"
+#include "documents/documents.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/contact/teach.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/inspect/inspect_outcome.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/teach.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

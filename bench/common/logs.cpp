@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <random>
 
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 namespace bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace bench {
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 
 namespace bench {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace bench {
 

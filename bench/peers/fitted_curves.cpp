@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 #include "same_pair.hpp"
 
 namespace bench {

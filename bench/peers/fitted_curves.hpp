@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/part/part.hpp"
-#include "rollfix/per_finger.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 
 namespace bench {
 

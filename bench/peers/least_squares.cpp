@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <random>
 
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 #include "same_pair.hpp"
 
 namespace bench {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace bench {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 namespace bench {
 namespace {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/noise.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 
 namespace bench {
 

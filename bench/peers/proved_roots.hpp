@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/reading.hpp"
 
 namespace bench {
 

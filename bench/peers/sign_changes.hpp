@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 
 namespace bench {
 

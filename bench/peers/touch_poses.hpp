@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/touch.hpp"
 
 namespace bench {
 

@@ -11,10 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace {
 

@@ -12,9 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
 
 namespace {
 

@@ -15,12 +15,12 @@
 #include <random>
 #include <string>
 
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/contact/pose.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/turning_function.hpp"
 
 /// A disk that rolls on a part because friction makes it: Box2D, a rigid-body engine, which knows of contacts, impulses
 /// and friction, and nothing of rolling, arc length or turning functions.

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "physics.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 
 /// Rolls whose start is known, located from nothing but their logs.
 namespace physics {

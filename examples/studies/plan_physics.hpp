@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/plan.hpp"
 
 /// A plan of two disks carried out in Box2D: the part is free and lies on a floor with little friction, finger a goes
 /// where the plan says, finger b is turned and led sideways as the plan says and pushes towards the part with a

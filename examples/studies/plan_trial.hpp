@@ -11,7 +11,7 @@
 
 #include "plan_physics.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 /// Random rolls of two disks, planned or refused, and how they go in a physics engine.
 namespace plan_trial {

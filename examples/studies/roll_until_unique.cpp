@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "rollfix/contact/teach.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/teach.hpp"
 
 namespace {
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/contact/teach.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/teach.hpp"
 
 namespace {
 

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "rollfix/rollfix.h"
+#include "rollfix/rolling.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace {
 

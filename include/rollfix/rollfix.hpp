@@ -1,29 +1,30 @@
 #pragma once
 
-// All that a user of the library needs; drawings are apart, in rollfix/files/, and figures, in rollfix/draw/.
+// All that a user of the core needs. Apart are rollfix/files.hpp, parts from drawings, with rollfix/documents.hpp,
+// answers as JSON; rollfix/identify.hpp, which of many parts; rollfix/draw.hpp, the figures; rollfix/march.hpp, the
+// published algorithms; and rollfix/rollfix.h for other languages.
 
-#include "rollfix/answer/answer.hpp"      // IWYU pragma: export
-#include "rollfix/answer/next_roll.hpp"   // IWYU pragma: export
-#include "rollfix/answer/solve.hpp"       // IWYU pragma: export
-#include "rollfix/belief/advise.hpp"      // IWYU pragma: export
-#include "rollfix/belief/belief.hpp"      // IWYU pragma: export
-#include "rollfix/certify/certify.hpp"    // IWYU pragma: export
-#include "rollfix/contact/finger.hpp"     // IWYU pragma: export
-#include "rollfix/contact/log.hpp"        // IWYU pragma: export
-#include "rollfix/contact/pose.hpp"       // IWYU pragma: export
-#include "rollfix/contact/rig.hpp"        // IWYU pragma: export
-#include "rollfix/contact/rolling.hpp"    // IWYU pragma: export
-#include "rollfix/contact/teach.hpp"      // IWYU pragma: export
-#include "rollfix/error.hpp"              // IWYU pragma: export
-#include "rollfix/hold/hold.hpp"          // IWYU pragma: export
-#include "rollfix/hold/next_pin.hpp"      // IWYU pragma: export
-#include "rollfix/locate/locate.hpp"      // IWYU pragma: export
-#include "rollfix/outline/curve.hpp"      // IWYU pragma: export
-#include "rollfix/outline/outline.hpp"    // IWYU pragma: export
-#include "rollfix/part/part.hpp"          // IWYU pragma: export
-#include "rollfix/part/reach.hpp"         // IWYU pragma: export
-#include "rollfix/plan/plan.hpp"          // IWYU pragma: export
-#include "rollfix/question/question.hpp"  // IWYU pragma: export
-#include "rollfix/touch/next_touch.hpp"   // IWYU pragma: export
-#include "rollfix/touch/touch.hpp"        // IWYU pragma: export
-#include "rollfix/watch/tracker.hpp"      // IWYU pragma: export
+// clang-format off: from the part to the answer.
+#include "rollfix/advise.hpp"            // IWYU pragma: export  which contact to make next
+#include "rollfix/belief.hpp"            // IWYU pragma: export  the estimate alone
+#include "rollfix/certify.hpp"           // IWYU pragma: export  the proof
+#include "rollfix/curve.hpp"             // IWYU pragma: export  points and curves
+#include "rollfix/error.hpp"             // IWYU pragma: export  what is thrown
+#include "rollfix/finger.hpp"            // IWYU pragma: export  disks, jaws, outlines
+#include "rollfix/hold.hpp"              // IWYU pragma: export  three fingers and more, or a wheel beside a jaw
+#include "rollfix/locate.hpp"            // IWYU pragma: export  the search alone
+#include "rollfix/log.hpp"               // IWYU pragma: export  what sensors wrote
+#include "rollfix/outline.hpp"           // IWYU pragma: export  what bounds a part
+#include "rollfix/part.hpp"              // IWYU pragma: export  a part, and where a finger can touch it
+#include "rollfix/plan.hpp"              // IWYU pragma: export  how to make it
+#include "rollfix/pulse.hpp"             // IWYU pragma: export  to stop what takes long
+#include "rollfix/question.hpp"          // IWYU pragma: export  whichever of these it is
+#include "rollfix/reading.hpp"           // IWYU pragma: export  length and turn, and how far off they may be
+#include "rollfix/rolling.hpp"           // IWYU pragma: export  what a roll would write
+#include "rollfix/solve.hpp"             // IWYU pragma: export  one finger or two that roll
+#include "rollfix/teach.hpp"             // IWYU pragma: export  a part from a roll around it
+#include "rollfix/touch.hpp"             // IWYU pragma: export  touches and several rolls of a part at rest
+#include "rollfix/tracker.hpp"           // IWYU pragma: export  row by row
+#include "rollfix/turning_function.hpp"  // IWYU pragma: export  its tangent's angle along it
+#include "rollfix/units.hpp"             // IWYU pragma: export
+// clang-format on

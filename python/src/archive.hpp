@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/question.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 // Values as bytes, for pickle and for ==. Each struct is taken apart by a structured binding, which does not compile
 // when a field is added and not named here. Not for other machines or versions: no more than pickle promises.

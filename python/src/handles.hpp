@@ -10,17 +10,17 @@
 #include <vector>
 
 #include "made.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/answer/next_roll.hpp"
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/hold/hold.hpp"
-#include "rollfix/part/reach.hpp"
-#include "rollfix/question/question.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/hold.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/question.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/touch.hpp"
 
 // What Python holds of the library's values. All are immutable and shared, so that a thread that works without the
 // interpreter's lock keeps what it works on, whatever Python does meanwhile.

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "handles.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix::python {
 

@@ -11,7 +11,7 @@ from rollfix import Disk, Noise
 from rollfix._words import diagnosis_in_python, in_python
 
 pandas = pytest.importorskip("pandas")
-SOURCE = pathlib.Path(__file__).resolve().parents[2] / "src/files/documents/diagnosis_text.cpp"
+SOURCE = pathlib.Path(__file__).resolve().parents[2] / "src/documents/diagnosis_text.cpp"
 
 
 @pytest.fixture(scope="module")

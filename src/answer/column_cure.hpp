@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix {
 

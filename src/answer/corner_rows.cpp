@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "part/turning_range.hpp"
-#include "rollfix/contact/noise.hpp"
+#include "rollfix/reading.hpp"
 
 // Notation:
 //   theta -+ J      what a row on a corner leaves open: its turn and `pivot`

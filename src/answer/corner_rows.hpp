@@ -2,7 +2,7 @@
 
 #include "finger_corners.hpp"
 #include "observation.hpp"
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

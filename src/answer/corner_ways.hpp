@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix {
 

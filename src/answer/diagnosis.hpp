@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "observation.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

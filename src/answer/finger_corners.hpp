@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "answer/observation.hpp"
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 // Logs of fingers with corners: on them a row's u does not tell how the finger's normal is turned, off them it does,
 // whatever lay between.

@@ -1,4 +1,4 @@
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 #include <cstdint>
 #include <limits>

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 
 namespace rollfix {
 namespace {

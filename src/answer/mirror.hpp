@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

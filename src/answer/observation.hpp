@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/convex_body.hpp"
+#include "finger/convex_body.hpp"
 #include "locate/pieces.hpp"
-#include "rollfix/contact/finger.hpp"
+#include "rollfix/finger.hpp"
 
 // Notation, all of it as the part sees it:
 //   p, Theta     a contact on the part, and the tangent there

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "observation.hpp"
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

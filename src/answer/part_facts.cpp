@@ -1,11 +1,11 @@
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 namespace {

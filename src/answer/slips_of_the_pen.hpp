@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

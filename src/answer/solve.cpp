@@ -1,4 +1,4 @@
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,10 +16,10 @@
 #include "mirror.hpp"
 #include "observation.hpp"
 #include "overlapping.hpp"
-#include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "rollfix/pulse.hpp"
+#include "rollfix/rolling.hpp"
 #include "unweighed.hpp"
 #include "weighing.hpp"
 

@@ -9,7 +9,7 @@
 #include "locate/corner_sets.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "weighing.hpp"
 
 namespace rollfix {

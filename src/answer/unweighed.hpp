@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "observation.hpp"
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 // Without noise: a few rows of a log are searched with, and all of them are held against what was found.
 namespace rollfix {

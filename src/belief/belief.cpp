@@ -1,4 +1,4 @@
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 #include <fmt/format.h>
 

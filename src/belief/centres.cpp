@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "outline/turn.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
 

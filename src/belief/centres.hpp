@@ -6,8 +6,8 @@
 
 #include "belief/error_model.hpp"
 #include "belief/tilted_boundary.hpp"
-#include "rollfix/contact/finger.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/finger.hpp"
+#include "rollfix/part.hpp"
 
 // The fingers' centres in the world as evidence: they go along the part's offset curve.
 namespace rollfix::belief {

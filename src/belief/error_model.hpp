@@ -5,8 +5,8 @@
 #include <memory_resource>
 
 #include "belief/travel.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/noise.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix::belief {
 

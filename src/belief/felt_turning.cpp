@@ -6,8 +6,8 @@
 
 #include "belief/posterior.hpp"
 #include "belief/two/pair_filter.hpp"
-#include "rollfix/part/boundary.hpp"
 #include "rollfix/pulse.hpp"
+#include "rollfix/turning_function.hpp"
 
 // Notation:
 //   s, n            a contact's true place, and by how much it was felt elsewhere: n ~ N(0, `sd_`^2)

@@ -11,8 +11,8 @@
 #include "belief/error_model.hpp"
 #include "belief/row_blocks.hpp"
 #include "belief/travel.hpp"
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix::belief {
 

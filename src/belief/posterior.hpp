@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/part.hpp"
 
 // What one finger's posterior and two fingers' have in common.
 namespace rollfix::belief {

@@ -7,8 +7,8 @@
 
 #include "belief/centres.hpp"
 #include "belief/error_model.hpp"
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix::belief {
 

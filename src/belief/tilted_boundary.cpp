@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 // Notation:
 //   c               the tilt, above every -kappa; for a disk 1 / r: `tilt_`

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
 

@@ -6,7 +6,7 @@
 #include "belief/posterior.hpp"
 #include "locate/corner_sets.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 namespace rollfix {
 

@@ -7,8 +7,8 @@
 #include <new>
 
 #include "belief/posterior.hpp"
-#include "rollfix/contact/finger.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/finger.hpp"
 
 // Idea: belief/one keeps all that grows in a memory resource. Here that is a block which is taken once, large enough
 // for as many first contacts on trial as the grid may hold, and for two of them each where it is laid out anew.

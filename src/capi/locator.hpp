@@ -7,9 +7,9 @@
 
 #include "belief/one/grid.hpp"
 #include "capi/fixed_pool.hpp"
-#include "contact/log_rows.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/part/part.hpp"
+#include "log/log_rows.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::capi {
 

@@ -14,8 +14,8 @@
 
 #include "capi/locator.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/version.hpp"
 
 struct rollfix_part {

@@ -13,9 +13,9 @@
 #include "bounds/profile.hpp"
 #include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/catalog/catalog.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/solve.hpp"
 #include "sums.hpp"
 #include "tables.hpp"
 

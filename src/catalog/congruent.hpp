@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "weights.hpp"
 
 namespace rollfix {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bounds/bounds.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 
 namespace rollfix {
 

@@ -1,7 +1,7 @@
 #include <utility>
 
-#include "files/documents/documents.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "documents/documents.hpp"
+#include "rollfix/identify.hpp"
 
 namespace rollfix {
 namespace {

@@ -1,4 +1,4 @@
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 
 #include <cmath>
 
-#include "rollfix/answer/next_roll.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
 

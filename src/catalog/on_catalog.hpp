@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 #include "watch/meaning.hpp"
 
 namespace rollfix {

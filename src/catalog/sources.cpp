@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "rollfix/catalog/catalog.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
 

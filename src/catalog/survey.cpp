@@ -8,9 +8,9 @@
 #include "answer/crew.hpp"
 #include "bounds/bounds.hpp"
 #include "glance.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
+#include "rollfix/solve.hpp"
 #include "weights.hpp"
 
 namespace rollfix {

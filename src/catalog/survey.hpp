@@ -5,8 +5,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

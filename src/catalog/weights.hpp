@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/solve.hpp"
 
 // How parts are weighed against each other.
 namespace rollfix {

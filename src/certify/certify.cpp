@@ -1,4 +1,4 @@
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "pair_cover.hpp"
 #include "places.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
 
 // Notation, as in docs/certificates.md, "Two fingers":

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "places.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
 #include "touch/poses_beyond.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "locate/pair/range.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hold/hold_fit.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 
 namespace rollfix {
 

@@ -6,7 +6,7 @@
 
 #include "contact_curve.hpp"
 #include "locate/pair/convex.hpp"
-#include "rollfix/contact/reading.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix {
 

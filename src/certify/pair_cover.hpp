@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pair_bounds.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 

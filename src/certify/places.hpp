@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 
 namespace rollfix {
 

@@ -10,7 +10,7 @@
 
 #include "outline/shapes/shapes.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

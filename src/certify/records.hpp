@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "places.hpp"
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix {
 

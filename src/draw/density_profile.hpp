@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::draw {
 

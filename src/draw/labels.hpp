@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "outline/box.hpp"
-#include "rollfix/draw/svg.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/draw.hpp"
 #include "trace.hpp"
 
 namespace rollfix::draw {

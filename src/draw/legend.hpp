@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 
 namespace rollfix::draw {
 

@@ -1,4 +1,4 @@
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/draw/svg.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::draw {
 

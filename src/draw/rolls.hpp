@@ -7,9 +7,9 @@
 
 #include "labels.hpp"
 #include "outline/box.hpp"
-#include "rollfix/contact/reading.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/reading.hpp"
+#include "rollfix/turning_function.hpp"
 #include "scene.hpp"
 #include "trace.hpp"
 

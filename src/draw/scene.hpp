@@ -5,8 +5,8 @@
 
 #include "labels.hpp"
 #include "outline/box.hpp"
-#include "rollfix/draw/svg.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/part.hpp"
 #include "trace.hpp"
 
 namespace rollfix::draw {

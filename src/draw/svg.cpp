@@ -1,4 +1,4 @@
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 
 #include <fmt/format.h>
 

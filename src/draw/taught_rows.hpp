@@ -3,7 +3,7 @@
 #include "labels.hpp"
 #include "legend.hpp"
 #include "plot.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 #include "scene.hpp"
 
 namespace rollfix::draw {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/draw/svg.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::draw {
 

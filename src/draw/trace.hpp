@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::draw {
 

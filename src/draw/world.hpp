@@ -5,9 +5,9 @@
 
 #include "outline/box.hpp"
 #include "plot.hpp"
-#include "rollfix/contact/pose.hpp"
-#include "rollfix/draw/svg.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::draw {
 

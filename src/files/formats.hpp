@@ -4,7 +4,7 @@
 #include <string_view>
 #include <variant>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 // From a file's bytes to what it draws. `name` is what messages call the file.
 namespace rollfix {

@@ -1,4 +1,4 @@
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "files/sparse_corners.hpp"
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "files/byte_stream.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 
@@ -24,9 +24,9 @@ Json curves_json(const Outline& outline, ByteWriter& numbers) {
   for (std::size_t k = 0; k < outline.curves.size(); ++k) {
     const std::optional<CurveRecord> record = outline.curves[k].record();
     if (!record) {
-      throw InputError(fmt::format(
-          "{}: curve {} is of a type that can't be saved: give the type a record(), see rollfix/outline/curve.hpp",
-          outline.name, k + 1));
+      throw InputError(
+          fmt::format("{}: curve {} is of a type that can't be saved: give the type a record(), see rollfix/curve.hpp",
+                      outline.name, k + 1));
     }
     const std::string kind = fmt::format("{} {}", record->numbers.size(), record->kind);
     if (kind == last) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -2,7 +2,7 @@
 
 #include "hold_fit.hpp"
 #include "hold_modes.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 namespace rollfix::hold {
 

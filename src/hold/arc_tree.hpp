@@ -9,7 +9,7 @@
 
 #include "held_rows.hpp"
 #include "part/turning_range.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::hold {
 

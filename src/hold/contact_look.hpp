@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::hold {
 

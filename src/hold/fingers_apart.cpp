@@ -8,11 +8,11 @@
 #include <string>
 
 #include "arc_tree.hpp"
-#include "contact/convex_body.hpp"
+#include "finger/convex_body.hpp"
 #include "hold_facts.hpp"
 #include "part/turning_range.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/rolling.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
 //   s, Theta        a contact on the part, and the tangent there; from there the finger lies to the right

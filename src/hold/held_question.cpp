@@ -7,7 +7,7 @@
 
 #include "hold_facts.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::hold {
 namespace {

@@ -8,7 +8,7 @@
 #include "arc_tree.hpp"
 #include "box_search.hpp"
 #include "held_rows.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "weigh_holds.hpp"
 
 namespace rollfix::hold {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 namespace rollfix::hold {
 

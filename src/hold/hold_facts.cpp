@@ -1,6 +1,6 @@
 #include "hold_facts.hpp"
 
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 
 namespace rollfix {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 namespace rollfix::hold {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "weigh_holds.hpp"
 
 namespace rollfix::hold {

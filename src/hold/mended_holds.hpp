@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 // Logs as they would be without a mistake.
 namespace rollfix::hold {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 // Notation, as in docs/rig.md:
 //   q, p            a finger's contact in the world and on the part; p is within rho of the arc's middle: HeldFrom

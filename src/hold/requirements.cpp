@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "box_search.hpp"
-#include "contact/log_rows.hpp"
 #include "hold_facts.hpp"
-#include "rollfix/belief/belief.hpp"
+#include "log/log_rows.hpp"
+#include "rollfix/belief.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::hold {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 namespace rollfix::hold {
 

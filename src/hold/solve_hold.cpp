@@ -12,7 +12,7 @@
 #include "hold_witness.hpp"
 #include "log_jumps.hpp"
 #include "requirements.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "rollfix/pulse.hpp"
 #include "weigh_holds.hpp"
 #include "wheels_apart.hpp"

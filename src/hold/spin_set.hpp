@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix::hold {
 

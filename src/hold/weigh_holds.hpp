@@ -5,7 +5,7 @@
 
 #include "box_search.hpp"
 #include "hold_modes.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 namespace rollfix::hold {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "touch/centre_path.hpp"
 #include "touch/nearest.hpp"
 #include "touch/path_tree.hpp"

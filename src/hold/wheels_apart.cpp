@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "contact/convex_body.hpp"
+#include "finger/convex_body.hpp"
 #include "held_rows.hpp"
 #include "hold_facts.hpp"
 #include "rollfix/error.hpp"

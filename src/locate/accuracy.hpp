@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 

@@ -3,7 +3,7 @@
 #include <boost/container/small_vector.hpp>
 
 #include "corner_sets.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -12,7 +12,7 @@
 #include "accuracy.hpp"
 #include "outline/turn.hpp"
 #include "part/part_data.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "corner_sets.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "corner_sets.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 

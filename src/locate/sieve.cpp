@@ -4,7 +4,7 @@
 
 #include "pieces.hpp"
 #include "pivots.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix {
 namespace {

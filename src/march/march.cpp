@@ -1,4 +1,4 @@
-#include "rollfix/march/march.hpp"
+#include "rollfix/march.hpp"
 
 #include <cmath>
 #include <utility>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "march/sweep.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::march {
 

@@ -1,4 +1,4 @@
-#include "rollfix/march/march.hpp"
+#include "rollfix/march.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "march/pairs.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::march {
 

@@ -7,7 +7,7 @@
 
 #include "march/limit.hpp"
 #include "march/path.hpp"
-#include "rollfix/march/march.hpp"
+#include "rollfix/march.hpp"
 
 namespace rollfix::march {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::march {
 

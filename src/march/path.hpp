@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/march/march.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::march {
 

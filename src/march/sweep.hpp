@@ -6,7 +6,7 @@
 #include "march/limit.hpp"
 #include "march/path.hpp"
 #include "march/preprocessing.hpp"
-#include "rollfix/march/march.hpp"
+#include "rollfix/march.hpp"
 
 namespace rollfix::march {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "outline/box.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ Outline load_outline(const std::string& argument, const OutlineOptions& options,
   if (ending == ".json" || ending == ".dxf" || ending == ".svg") {
     throw InputError(
         fmt::format("{}: {} files are read by the library rollfix::files, as load_part(\"{}\", {{}}).part of "
-                    "<rollfix/files/load_part.hpp>; here expected {}",
+                    "<rollfix/files.hpp>; here expected {}",
                     argument, ending, argument, kKnown));
   }
   throw InputError(unknown_ending(argument, kKnown));

@@ -1,4 +1,4 @@
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 
 #include "outline/joining.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

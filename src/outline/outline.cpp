@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "outline/box.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

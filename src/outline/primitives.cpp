@@ -1,4 +1,4 @@
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 #include <fmt/format.h>
 

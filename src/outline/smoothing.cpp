@@ -1,4 +1,4 @@
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include "outline/fitted_spline.hpp"
 #include "outline/scan_corners.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
 #include "rollfix/pulse.hpp"
 
 namespace rollfix {

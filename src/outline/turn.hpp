@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "outline/turn.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 #include "turning_builder.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "turning_builder.hpp"
 #include "turning_tree.hpp"
 

@@ -1,4 +1,4 @@
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "boundary_tree.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "chebyshev.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 #include <algorithm>
 #include <cmath>

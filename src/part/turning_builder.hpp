@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "resolve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix {
 

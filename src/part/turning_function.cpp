@@ -1,4 +1,4 @@
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/turning_function.hpp"
 
 #include <fmt/format.h>
 

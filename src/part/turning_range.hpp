@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix {
 

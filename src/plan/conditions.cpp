@@ -9,7 +9,7 @@
 
 #include "plan/squeeze.hpp"
 #include "plan/stability.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 // Notation:
 //   A, B, D, p, q     squeeze.hpp

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "plan/roll_path.hpp"
-#include "rollfix/part/reach.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "contact/motion.hpp"
-#include "contact/track.hpp"
-#include "rollfix/part/reach.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "roll/motion.hpp"
+#include "roll/track.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix {
 

@@ -10,7 +10,7 @@
 #include <functional>
 #include <numbers>
 
-#include "contact/log_rows.hpp"
+#include "log/log_rows.hpp"
 
 // Notation:
 //   x, y               turns of the fingers against the part, with rates x', y'; c, p as in contact_way.hpp

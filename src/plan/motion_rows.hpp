@@ -4,7 +4,7 @@
 
 #include "plan/conditions.hpp"
 #include "plan/roll_path.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 
 // Idea: in a mirror x, angles and angular velocities have the other sign, and what was turned one way turns the other;
 // lengths along the outline as it was drawn, distances and friction are what they were.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "plan/plan_requirements.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix {
 namespace {

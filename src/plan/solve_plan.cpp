@@ -16,8 +16,8 @@
 #include "plan/plan_requirements.hpp"
 #include "plan/squeeze.hpp"
 #include "plan/stability.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 namespace {

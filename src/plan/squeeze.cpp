@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/convex_body.hpp"
+#include "finger/convex_body.hpp"
 
 namespace rollfix {
 namespace {

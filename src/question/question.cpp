@@ -1,4 +1,4 @@
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include "answer/crew.hpp"
 #include "answer/either_way.hpp"
 #include "answer/weighing.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 #include "uses.hpp"
 
 namespace rollfix {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "answer/weighing.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 // Which options go with which contacts. A search takes an option if its problem has the field; what it has no use for
 // is refused, with the reason that `Uses` knows for this kind of contacts.

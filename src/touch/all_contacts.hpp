@@ -7,7 +7,7 @@
 #include "measured.hpp"
 #include "path_tree.hpp"
 #include "roll_contacts.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

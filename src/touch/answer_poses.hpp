@@ -8,7 +8,7 @@
 #include "cell_sets.hpp"
 #include "pose_fit.hpp"
 #include "posterior.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -6,8 +6,15 @@
 
 #include "part/cursor.hpp"
 #include "part/part_data.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
+// Notation:
+//   p(s), n(s)      the boundary and its outward normal, r the finger's radius
+//   c               centre of the finger: p + r n along a spiral, by u = s; about a convex corner p + r n(theta), by u
+//   =
+//                   theta, the tangent's angle in between the sides'
+//   stretches       these pieces in order, without those that the finger's reach or a roll's readings leave out
+// A finger without size has the boundary itself for its path, and at a corner a stretch of no length that turns.
 namespace rollfix::touch {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::touch {
 

@@ -8,7 +8,7 @@
 #include "part_distance.hpp"
 #include "path_tree.hpp"
 #include "posterior.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -6,7 +6,7 @@
 #include "heading_arc.hpp"
 #include "measured.hpp"
 #include "path_tree.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

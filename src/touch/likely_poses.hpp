@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

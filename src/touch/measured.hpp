@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix {
 struct TouchProblem;

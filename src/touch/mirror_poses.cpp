@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 #include "outline/turn.hpp"
 
 namespace rollfix::touch {

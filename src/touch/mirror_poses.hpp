@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 // A part that lies face down: seen in the mirror x = -x it does not.
 namespace rollfix::touch {

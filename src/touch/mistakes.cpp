@@ -8,7 +8,7 @@
 
 #include "mistaken_units.hpp"
 #include "other_radius.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

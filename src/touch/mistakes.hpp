@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "measured.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -8,6 +8,12 @@
 
 #include "outline/turn.hpp"
 
+// Notation:
+//   q, tau          a touch as the part's frame has it: `InPart::at`, `tangent`
+//   c(u), theta(u)  centre and tangent's angle of a place of the path: CentrePoint
+//   d^2             |q - c|^2 / place_unit^2 + (tau - theta)^2 / angle_unit^2: `Distance::square`
+// Idea: branch and bound over the tree of stretches, by the distance from a node's disc and from its interval of
+// angles; on a stretch that bends little Newton's method, which goes on to the neighbours as long as that is downhill.
 namespace rollfix::touch {
 namespace {
 
@@ -16,6 +22,8 @@ constexpr int kMostSteps = 40;
 constexpr double kNoStep = 1e-5;
 // A stretch that turns by no more, radians, has one nearest place to a touch that is not far from it.
 constexpr double kOneNearest = 0.3;
+// Sides that meet at a joint turn by no more, radians: a drawing's arcs are so smooth.
+constexpr double kNoTurn = 1e-6;
 // A place is not nearer where its squares are smaller by no more than this share, or this much.
 constexpr double kNotNearer = 1e-6;
 
@@ -33,14 +41,17 @@ std::optional<PathPlace> neighbour(const CentrePath& path, const InPart& touch, 
   return std::nullopt;
 }
 
-/// Where it goes on downhill beyond this end of a stretch.
-std::optional<OnPath> beyond(const CentrePath& path, const InPart& touch, std::size_t stretch, bool forwards) {
-  const std::optional<PathPlace> next = neighbour(path, touch, stretch, forwards);
+/// Where it goes on downhill beyond the end of a stretch at which it is.
+std::optional<OnPath> beyond(const CentrePath& path, const InPart& touch, const OnPath& here, bool forwards) {
+  const std::optional<PathPlace> next = neighbour(path, touch, here.place.stretch, forwards);
   if (!next) return std::nullopt;
   const OnPath there{*next, path.at(*next)};
-  const double slope = distance_at(there.point, touch).slope;
-  if (forwards ? slope > 0 : slope < 0) return there;
-  return std::nullopt;
+  const Distance then = distance_at(there.point, touch);
+  if (forwards ? then.slope <= 0 : then.slope >= 0) return std::nullopt;
+  // At a concave corner, where nothing leads from one normal to the other, the next side may be a step up.
+  const bool turns = touch.tangent && std::abs(nearest_angle(there.point.angle - here.point.angle)) > kNoTurn;
+  if (turns && then.square > distance_at(here.point, touch).square) return std::nullopt;
+  return there;
 }
 
 }  // namespace
@@ -113,8 +124,8 @@ OnPath downhill(const CentrePath& path, const InPart& touch, OnPath from) {
     if (!is_still && !at_lo && !at_hi && std::abs(move) * std::sqrt(here.weight) <= kNoStep) return best;
     if (at_lo || at_hi || is_still) {
       std::optional<OnPath> next;
-      if (at_hi || is_still) next = beyond(path, touch, from.place.stretch, true);
-      if (!next && (at_lo || is_still)) next = beyond(path, touch, from.place.stretch, false);
+      if (at_hi || is_still) next = beyond(path, touch, from, true);
+      if (!next && (at_lo || is_still)) next = beyond(path, touch, from, false);
       if (!next) return best;
       from = *next;
       last = std::numeric_limits<double>::infinity();  // a drawing's joints may have gaps

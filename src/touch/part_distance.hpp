@@ -4,7 +4,7 @@
 
 #include "centre_path.hpp"
 #include "path_tree.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::touch {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace rollfix::touch {
 namespace {

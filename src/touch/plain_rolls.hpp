@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "roll_contacts.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

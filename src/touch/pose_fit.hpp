@@ -7,8 +7,8 @@
 
 #include "measured.hpp"
 #include "nearest.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/reading.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix::touch {
 

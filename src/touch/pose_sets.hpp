@@ -7,7 +7,7 @@
 #include "free_space.hpp"
 #include "pose_fit.hpp"
 #include "posterior.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -12,6 +12,17 @@
 #include "roll_belief.hpp"
 #include "tilted_touch.hpp"
 
+// Notation:
+//   u_1             place of the first touch's contact, a node of the grid: `Held`, on columns of stretches, `Column`
+//   (X, phi)        the part's pose; given u_1 two numbers of it are free, which the other touches tell
+//   r^2             least sum of squares given u_1: `FittedPose::square`, its normal matrix `information`
+//   L_i             likelihood of a further touch, summed over the boundary near its nearest place: TiltedTouch
+//   log w           `log_weight`: log of the integral of the product of all L_i over the pose, about its mode, and of
+//   the
+//                   length that the node stands for
+// Follows docs/touch.md, "How it works".
+// Idea: quadrature over one unknown, and about each of its values Laplace's method for the rest, by Newton's steps from
+// the best pose to the mode of the product.
 namespace rollfix::touch {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "cell_sets.hpp"
 #include "pose_fit.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "contact/log_table.hpp"
+#include "log/log_table.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

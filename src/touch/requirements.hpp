@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "outline/turn.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 namespace {

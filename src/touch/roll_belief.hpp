@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "centre_path.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/reading.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/reading.hpp"
 #include "tilted_touch.hpp"
 
 namespace rollfix::touch {

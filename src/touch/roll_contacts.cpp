@@ -14,8 +14,8 @@
 #include "answer/weighing.hpp"
 #include "outline/turn.hpp"
 #include "requirements.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::touch {
 namespace {

@@ -7,8 +7,8 @@
 #include "measured.hpp"
 #include "path_tree.hpp"
 #include "roll_belief.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -4,7 +4,7 @@
 
 #include "measured.hpp"
 #include "roll_contacts.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 // What a search for poses does otherwise where contacts roll.
 namespace rollfix::touch {

@@ -1,4 +1,4 @@
-#include "rollfix/touch/slide.hpp"
+#include "rollfix/touch.hpp"
 
 #include <algorithm>
 #include <array>

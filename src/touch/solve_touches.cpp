@@ -15,7 +15,7 @@
 #include "roll_poses.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 #include "weighed_poses.hpp"
 #include "witnessed_poses.hpp"
 

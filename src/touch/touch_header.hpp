@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/header/log_header.hpp"
-#include "contact/log_table.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "log/header/log_header.hpp"
+#include "log/log_table.hpp"
+#include "rollfix/touch.hpp"
 #include "rollfix/units.hpp"
 
 namespace rollfix::touch {

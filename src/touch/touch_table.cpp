@@ -1,4 +1,4 @@
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/header/log_header.hpp"
-#include "contact/log_table.hpp"
+#include "log/header/log_header.hpp"
+#include "log/log_table.hpp"
 #include "probe_report.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"

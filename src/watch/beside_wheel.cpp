@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "watch/kept_samples.hpp"
 
 namespace rollfix {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "answer/finger_corners.hpp"
-#include "contact/log_rows.hpp"
+#include "log/log_rows.hpp"
 
 namespace rollfix {
 namespace {

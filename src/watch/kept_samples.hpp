@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/solve.hpp"
 #include "watch/meaning.hpp"
 
 namespace rollfix {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "rollfix/watch/tracker.hpp"
+#include "rollfix/tracker.hpp"
 
 namespace rollfix {
 

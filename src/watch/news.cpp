@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/watch/tracker.hpp"
+#include "rollfix/tracker.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix {
 namespace {

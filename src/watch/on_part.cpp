@@ -5,8 +5,8 @@
 
 #include "answer/finger_corners.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
 #include "watch/kept_samples.hpp"
 
 namespace rollfix {

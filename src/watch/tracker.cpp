@@ -1,11 +1,11 @@
-#include "rollfix/watch/tracker.hpp"
+#include "rollfix/tracker.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <utility>
 
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 #include "rollfix/error.hpp"
 #include "watch/tracker_state.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 #include "watch/rolls.hpp"
 
 namespace rollfix {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/rollfix.h"
+#include "rollfix/rolling.hpp"
 
 namespace c_api_test {
 namespace {

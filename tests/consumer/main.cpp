@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <string>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "rollfix/version.hpp"
 
 int main() {

@@ -9,7 +9,7 @@
 
 #include "cli.hpp"
 #include "hold/rig_cases.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 // A jaw with skin and a wheel without, as the program takes them.
 namespace cli_rig_test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "touch/touch_cases.hpp"
 
 // Fingers that roll on a part that moves, drawn by a simulator that knows the outline's points, tangents and corners

@@ -12,9 +12,9 @@
 #include "hold/hold_cases.hpp"
 #include "hold/rig_cases.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 
 // Certificates of holds and of the rig, and random questions for them.
 namespace hold_certificates {

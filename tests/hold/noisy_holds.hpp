@@ -3,7 +3,7 @@
 #include <string>
 
 #include "hold/hold_cases.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 // Holds with noise on smooth parts, in which one mistake is planted.
 namespace noisy_holds {

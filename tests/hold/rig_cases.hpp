@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "touch/touch_cases.hpp"
 
 // A jaw and a wheel that turns freely on its pin, with a part between them. The simulation knows rigid bodies whose

@@ -12,7 +12,7 @@
 #include "hold/rig_cases.hpp"
 #include "hold/rig_scan.hpp"
 #include "refusal.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 // A jaw with skin, and a wheel of which only the pin's place is known.
 namespace rig_test {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 #include "witness/squeezed_cases.hpp"
 
 namespace squeezed_test {

@@ -3,7 +3,7 @@
 // Which arcs of a boundary hold each other, and which meet, whichever lap they are named on.
 
 #include "oracle/boundary.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace oracle {
 

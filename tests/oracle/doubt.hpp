@@ -1,7 +1,7 @@
 #pragma once
 
 #include "oracle/boundary.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace oracle {
 

@@ -11,7 +11,7 @@
 
 #include "oracle/arcs.hpp"
 #include "oracle/one_finger.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace oracle {
 

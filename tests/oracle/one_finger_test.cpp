@@ -13,7 +13,7 @@
 #include "oracle/one_finger_agreement.hpp"
 #include "oracle/one_finger_cases.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace oracle_one_finger_test {
 namespace {

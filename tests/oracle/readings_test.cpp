@@ -14,7 +14,7 @@
 #include "oracle/one_finger.hpp"
 #include "oracle/one_finger_cases.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace oracle_readings_test {
 namespace {

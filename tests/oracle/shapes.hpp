@@ -15,9 +15,9 @@
 
 #include "oracle/boundary.hpp"
 #include "oracle/formulas.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace oracle {
 

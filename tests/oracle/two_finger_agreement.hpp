@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oracle/two_fingers.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace oracle {
 

@@ -9,7 +9,7 @@
 
 #include "oracle/shapes.hpp"
 #include "oracle/two_fingers.hpp"
-#include "rollfix/contact/reading.hpp"
+#include "rollfix/reading.hpp"
 
 namespace oracle {
 

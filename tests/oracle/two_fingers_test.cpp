@@ -12,7 +12,7 @@
 #include "oracle/two_finger_agreement.hpp"
 #include "oracle/two_finger_cases.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 namespace oracle_two_fingers_test {
 namespace {

@@ -1,5 +1,5 @@
 // What fingers have to do so that a part between them keeps rolling, and what stands in the way.
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 #include "plans.hpp"
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::plan_test {

@@ -7,7 +7,7 @@
 
 #include "plans.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::plan_wheel_test {
 namespace {

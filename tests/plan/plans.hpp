@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/plan.hpp"
 
 /// Plans to look at, and what mechanics says of them: written from forces and velocities in the world alone.
 namespace plans {

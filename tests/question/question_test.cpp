@@ -1,5 +1,5 @@
 // One question for all contacts with a part: the library decides which search answers, and what goes with what.
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include "hold/hold_cases.hpp"
 #include "hold/rig_cases.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/solve.hpp"
 #include "touch/roll_cases.hpp"
 
 namespace question_test {

@@ -13,8 +13,8 @@
 #include "../refusal.hpp"
 #include "rigid_body.hpp"
 #include "rigs.hpp"
-#include "rollfix/contact/rig.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::rig_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 /// A jaw and a wheel on a pin, simulated as rigid bodies: nothing but that velocities are equal at both contacts, and
 /// how fast a contact runs between two curves. It knows nothing of closures, nor of Rollfix's rolls.

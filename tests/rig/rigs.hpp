@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "rollfix/contact/rig.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 /// Small words for tests about a jaw and a wheel.
 namespace rigs {

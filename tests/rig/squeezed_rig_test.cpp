@@ -11,7 +11,7 @@
 #include "../random.hpp"
 #include "../refusal.hpp"
 #include "rigs.hpp"
-#include "rollfix/contact/rig.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::squeezed_rig_test {
 namespace {

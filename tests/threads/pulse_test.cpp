@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"
+#include "rollfix/solve.hpp"
 
 namespace pulse_test {
 namespace {

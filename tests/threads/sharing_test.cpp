@@ -6,10 +6,10 @@
 #include <thread>
 #include <vector>
 
-#include "files/documents/documents.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "documents/documents.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/solve.hpp"
 
 namespace sharing_test {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/solve.hpp"
 
 namespace solve_many_test {
 namespace {

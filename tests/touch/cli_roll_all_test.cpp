@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/rolling.hpp"
 #include "touch_cases.hpp"
 
 namespace cli_roll_all_test {

@@ -7,7 +7,7 @@
 
 #include "catalogs.hpp"
 #include "random.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 #include "touch/roll_certificates.hpp"
 
 // Which part is it, by several rolls and touches that share its pose: a small catalog, and rolls on one of its parts.

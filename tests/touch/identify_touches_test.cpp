@@ -12,7 +12,7 @@
 #include "catalogs.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 #include "touch/touch_cases.hpp"
 
 namespace identify_touches_test {

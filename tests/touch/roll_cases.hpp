@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/rolling.hpp"
 #include "touch_cases.hpp"
 
 // Rolls of a disk on a part that lies somewhere, drawn by a simulator that knows the outline's points and tangents

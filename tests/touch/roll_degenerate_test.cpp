@@ -8,7 +8,7 @@
 #include "random.hpp"
 #include "refusal.hpp"
 #include "roll_cases.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 // Several rolls where the part, the rolls or their logs are special.
 namespace roll_degenerate_test {

@@ -10,8 +10,8 @@
 #include "random.hpp"
 #include "refusal.hpp"
 #include "roll_cases.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/touch.hpp"
 
 // Contacts that say less than a touch with its place, or come as a roll of a single row.
 namespace single_contact_test {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/part/part.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/touch.hpp"
 
 // Touches of a part that lies somewhere, drawn by a simulator that knows the outline's points and tangents alone.
 namespace touch_cases {

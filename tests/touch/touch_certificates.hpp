@@ -12,9 +12,9 @@
 #include "check.hpp"
 #include "outline/turn.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "touch/touch_cases.hpp"
 
 // Certificates of touches, and random questions for them.

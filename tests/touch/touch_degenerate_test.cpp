@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/touch/slide.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/touch.hpp"
 #include "touch_cases.hpp"
 
 namespace touch_degenerate_test {

@@ -8,7 +8,7 @@
 #include "outline/turn.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/touch/next_touch.hpp"
+#include "rollfix/advise.hpp"
 #include "touch_cases.hpp"
 
 // What to touch next, where it is known and where there is nothing to ask.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/watch/touch_watcher.hpp"
 #include "touch/touch_cases.hpp"
 #include "watch_child.hpp"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "../cli.hpp"
-#include "rollfix/contact/rig.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/hold/next_pin.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace advise_rig_test {
 namespace {

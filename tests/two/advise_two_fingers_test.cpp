@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "cli.hpp"
-#include "rollfix/belief/advise.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace advise_two_fingers_test {
 namespace {

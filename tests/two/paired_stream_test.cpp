@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 
 namespace paired_stream_test {
 namespace {

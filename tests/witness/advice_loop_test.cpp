@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "belief_cases.hpp"
-#include "rollfix/belief/advise.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
 
 namespace advice_loop_test {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "random.hpp"
-#include "rollfix/belief/advise.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/advise.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace advice_pairs_loop_test {
 namespace {

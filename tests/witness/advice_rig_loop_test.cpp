@@ -10,10 +10,10 @@
 #include <string>
 
 #include "random.hpp"
-#include "rollfix/contact/rig.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/hold/next_pin.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace advice_rig_loop_test {
 namespace {

@@ -10,7 +10,7 @@
 #include "belief/nodes.hpp"
 #include "belief_cases.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace belief_brute_force_test {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "belief_cases.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 namespace belief_centres_test {
 namespace {

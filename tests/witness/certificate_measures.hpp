@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 // What certificates cost: how large they are, how long they take to draw up and to check.
 namespace certificate_measures {

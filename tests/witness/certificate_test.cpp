@@ -11,12 +11,12 @@
 
 #include "certificates.hpp"
 #include "random.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace certificate_test {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "cli.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace cli_cure_test {
 namespace {

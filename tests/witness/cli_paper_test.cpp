@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "cli.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 
 namespace cli_paper_test {
 namespace {

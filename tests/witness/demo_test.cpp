@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
-#include "rollfix/march/march.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/outline.hpp"
 
 namespace demo_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "belief_cases.hpp"
 #include "noisy_pairs.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 namespace diagnosis_test {
 namespace {

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "draw_helpers.hpp"
-#include "rollfix/draw/figures.hpp"
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 
 namespace draw_many_spirals_test {

@@ -10,8 +10,8 @@
 
 #include "corner_fingers.hpp"
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/solve.hpp"
 
 // Noisy rolls of fingers with corners: whether the intervals hold the truth as often as they say. The simulator steps
 // along the part by its points and tangents alone, and pivots wherever a corner of the polygon comes up.

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace gallery_formulas_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "hold/hold_cases.hpp"
 #include "random.hpp"
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 // Three and more fingers: the truth is always among the answers, and so is all that a scan finds.
 namespace hold_truth_test {

@@ -7,7 +7,7 @@
 
 #include "catalogs.hpp"
 #include "random.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 #include "touch/touch_cases.hpp"
 
 namespace identify_evidence_test {

@@ -9,7 +9,7 @@
 #include "catalogs.hpp"
 #include "outline/turn.hpp"
 #include "random.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
 #include "touch/roll_cases.hpp"
 
 namespace identify_rolls_evidence_test {

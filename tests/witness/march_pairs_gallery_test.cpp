@@ -4,7 +4,7 @@
 #include "march_families.hpp"
 #include "march_pairs.hpp"
 #include "random.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace march_pairs_gallery_test {

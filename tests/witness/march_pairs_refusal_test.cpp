@@ -7,7 +7,7 @@
 
 #include "march_pairs.hpp"
 #include "march_shapes.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace march_pairs_refusal_test {
 namespace {

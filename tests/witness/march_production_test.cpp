@@ -7,8 +7,8 @@
 
 #include "march_families.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/march/march.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/march.hpp"
 #include "shapes.hpp"
 
 namespace march_production_test {

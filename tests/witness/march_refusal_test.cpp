@@ -10,8 +10,8 @@
 
 #include "march_oracle.hpp"
 #include "march_shapes.hpp"
-#include "rollfix/march/march.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/march.hpp"
 
 namespace march_refusal_test {
 namespace {

@@ -11,7 +11,7 @@
 #include "belief/posterior.hpp"
 #include "belief_cases.hpp"
 #include "cli.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 
 namespace misfit_test {
 namespace {

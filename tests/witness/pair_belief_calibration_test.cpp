@@ -1,5 +1,5 @@
 // Two fingers with noise: whether what is claimed comes true, and what brute computations say.
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 
 #include "noisy_pairs.hpp"
 #include "random.hpp"
-#include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/rolling.hpp"
 #include "shapes.hpp"
 
 namespace pair_belief_calibration_test {

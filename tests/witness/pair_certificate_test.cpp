@@ -12,11 +12,11 @@
 #include "certificates.hpp"
 #include "pair_cases.hpp"
 #include "random.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace pair_certificate_test {

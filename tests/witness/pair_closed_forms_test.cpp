@@ -5,7 +5,7 @@
 
 #include "belief/posterior.hpp"
 #include "free_roll.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace pair_closed_forms_test {

@@ -5,7 +5,7 @@
 #include "pair_cases.hpp"
 #include "pair_oracle.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace pair_families_test {

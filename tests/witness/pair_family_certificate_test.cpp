@@ -16,10 +16,10 @@
 #include "certificates.hpp"
 #include "pair_liar.hpp"
 #include "random.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace pair_family_certificate_test {

@@ -11,7 +11,7 @@
 #include "certificates.hpp"
 #include "random.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
 
 namespace pair_family_certificate_witness_test {

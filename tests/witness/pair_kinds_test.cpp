@@ -11,7 +11,7 @@
 
 #include "pair_cases.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_kinds_test {

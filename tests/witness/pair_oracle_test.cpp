@@ -10,7 +10,7 @@
 #include "march_oracle.hpp"
 #include "march_shapes.hpp"
 #include "random.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace pair_oracle_test {

@@ -1,5 +1,5 @@
 // What a finger can reach, compared with a dense polyline.
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "shapes.hpp"
 
 namespace reach_agreement_test {

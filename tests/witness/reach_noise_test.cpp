@@ -7,7 +7,7 @@
 
 #include "noisy_pairs.hpp"
 #include "random.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
 namespace reach_noise_test {

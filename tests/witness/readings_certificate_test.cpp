@@ -10,10 +10,10 @@
 
 #include "certificates.hpp"
 #include "random.hpp"
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "shapes.hpp"
 
 namespace readings_certificate_test {

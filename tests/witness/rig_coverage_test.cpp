@@ -11,7 +11,7 @@
 #include "hold/rig_cases.hpp"
 #include "hold/rig_scan.hpp"
 #include "random.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 #include "witness/squeezed_cases.hpp"
 
 // Jaws with skin and wheels without, simulated as rigid bodies: whether the truth is listed, and how often an interval

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/contact/finger.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/finger.hpp"
+#include "rollfix/locate.hpp"
 #include "touch/roll_cases.hpp"
 
 // Several rolls on one part: against the pair search of two fingers, a scan of the heading, and the truth.

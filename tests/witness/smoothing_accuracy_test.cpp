@@ -1,5 +1,5 @@
 // How near a smoothed scan is to its points and to the shape that was scanned.
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "scans.hpp"
 #include "shapes.hpp"
 

@@ -11,11 +11,11 @@
 
 #include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/contact/teach.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/teach.hpp"
 #include "shapes.hpp"
 
 namespace teach_noise_test {

@@ -10,7 +10,7 @@
 
 #include "outline/turn.hpp"
 #include "random.hpp"
-#include "rollfix/touch/next_touch.hpp"
+#include "rollfix/advise.hpp"
 #include "touch/touch_cases.hpp"
 
 // Advised touches against random ones, made by a simulator that knows the outline's points alone.

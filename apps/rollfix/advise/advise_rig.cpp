@@ -5,14 +5,14 @@
 #include <cmath>
 #include <optional>
 
+#include "rollfix/advise.hpp"
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/travel_argument.hpp"
-#include "rollfix/draw/figures.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/hold/next_pin.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -4,7 +4,7 @@
 
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/output/report.hpp"
 
 namespace rollfix::app {

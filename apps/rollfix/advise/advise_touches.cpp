@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "outline/turn.hpp"
+#include "rollfix/advise.hpp"
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/output/touch_text.hpp"
-#include "rollfix/touch/next_touch.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

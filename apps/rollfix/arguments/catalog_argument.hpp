@@ -4,7 +4,7 @@
 #include <string>
 
 #include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/identify.hpp"
 
 namespace rollfix::app {
 

@@ -9,7 +9,7 @@
 
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/contact/finger.hpp"
+#include "rollfix/finger.hpp"
 
 namespace rollfix::app {
 

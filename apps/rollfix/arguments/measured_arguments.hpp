@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 // What was measured, as typed and from files. `unit`: the part's, empty where it is not known. All throw InputError.
 namespace rollfix::app {

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "files/documents/outline_numbers.hpp"
-#include "rollfix/draw/svg.hpp"
+#include "documents/outline_numbers.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/output/files.hpp"
 #include "rollfix/usage.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "rollfix/draw/svg.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/output/report.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::app {
 

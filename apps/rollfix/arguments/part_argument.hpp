@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::app {
 

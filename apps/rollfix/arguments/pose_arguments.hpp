@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 namespace rollfix::app {
 

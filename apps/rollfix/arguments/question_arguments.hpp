@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 // From what is typed to what the library is asked: numbers and structs. What goes with what is the library's to say.
 namespace rollfix::app {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/pose_arguments.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix::app {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/part/part.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/question.hpp"
 
 namespace rollfix::app {
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "files/documents/json_output.hpp"
+#include "documents/json_output.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/catalog/catalog.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
 #include "rollfix/output/option_names.hpp"
 #include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/table.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "files/documents/json_output.hpp"
+#include "documents/json_output.hpp"
 #include "rollfix/output/report.hpp"
 
 namespace rollfix::app {

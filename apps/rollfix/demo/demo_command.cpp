@@ -7,15 +7,15 @@
 #include <memory>
 #include <system_error>
 
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/demo/demo_parts.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/program.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::app {
 

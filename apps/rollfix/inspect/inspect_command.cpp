@@ -2,15 +2,15 @@
 
 #include <memory>
 
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/inspect/inspect_outcome.hpp"
+#include "rollfix/solve.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

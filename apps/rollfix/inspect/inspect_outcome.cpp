@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "files/documents/documents.hpp"
+#include "documents/documents.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"

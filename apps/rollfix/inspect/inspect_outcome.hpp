@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/files/load_part.hpp"
+#include "rollfix/files.hpp"
 
 namespace rollfix::app {
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "files/documents/documents.hpp"
+#include "documents/documents.hpp"
 #include "files/json/fields.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/locate/question_json.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/option_names.hpp"

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "rollfix/certify/certify.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/output/files.hpp"
 
 namespace rollfix::app {

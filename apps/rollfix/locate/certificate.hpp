@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "rollfix/answer/answer.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 #include "rollfix/output/report.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::app {
 

@@ -8,7 +8,7 @@
 
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/march/march.hpp"
+#include "rollfix/march.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/usage.hpp"

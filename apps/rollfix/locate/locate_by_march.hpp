@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rollfix/output/report.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::app {
 

@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "answer/observation.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/locate/batch.hpp"
 #include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
@@ -24,6 +23,7 @@
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/hold_text.hpp"
 #include "rollfix/output/touch_text.hpp"
+#include "rollfix/solve.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 

@@ -9,7 +9,7 @@
 #include "outline/point_table.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/files.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 #include "rollfix/units.hpp"
 #include "text/text.hpp"
 

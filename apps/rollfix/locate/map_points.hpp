@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/answer/answer.hpp"
 #include "rollfix/output/report.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 

@@ -6,7 +6,7 @@
 
 #include "files/json/fields.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 namespace rollfix::app {
 

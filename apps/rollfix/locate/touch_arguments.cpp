@@ -12,7 +12,7 @@
 
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

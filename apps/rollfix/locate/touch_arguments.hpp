@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 namespace rollfix::app {
 

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "files/documents/documents.hpp"
-#include "rollfix/answer/answer.hpp"
+#include "documents/documents.hpp"
 #include "rollfix/output/report.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/answer/answer.hpp"
+#include "rollfix/solve.hpp"
 
 // What an answer's text consists of, section by section.
 namespace rollfix::app {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "rollfix/answer/answer.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/solve.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

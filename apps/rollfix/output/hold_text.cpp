@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/solve.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 namespace rollfix::app {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 namespace rollfix::app {
 

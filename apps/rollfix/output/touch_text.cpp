@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/answer/answer.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/touch/slide.hpp"
+#include "rollfix/solve.hpp"
+#include "rollfix/touch.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::app {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/answer/answer.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_sections.hpp"
 #include "rollfix/output/answer_words.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 namespace {

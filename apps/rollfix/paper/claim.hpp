@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "files/documents/json_output.hpp"
+#include "documents/json_output.hpp"
 
 namespace rollfix::app {
 

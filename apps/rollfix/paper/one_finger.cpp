@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "rollfix/march/march.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/paper/claim.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "march/pairs.hpp"
-#include "rollfix/march/march.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/march.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/paper/claim.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix::app {
 namespace {

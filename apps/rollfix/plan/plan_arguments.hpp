@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix::app {
 

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
 #include "rollfix/plan/plan_arguments.hpp"
 #include "rollfix/plan/plan_output.hpp"
 #include "rollfix/simulate/simulation.hpp"

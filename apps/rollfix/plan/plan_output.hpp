@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix::app {
 

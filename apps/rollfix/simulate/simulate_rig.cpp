@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/contact/rig.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/rolling.hpp"
 #include "rollfix/simulate/simulation.hpp"
 #include "text/text.hpp"
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <optional>
 
-#include "contact/mirrored.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "log/mirrored.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/rolling.hpp"
 #include "rollfix/simulate/simulation.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/rolling.hpp"
 #include "rollfix/simulate/simulation.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::app {
 namespace {

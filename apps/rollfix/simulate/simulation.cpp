@@ -1,5 +1,5 @@
 #include "rollfix/simulate/simulation.hpp"
-#include "contact/mirrored.hpp"
+#include "log/mirrored.hpp"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 #include <numbers>
 #include <string_view>
 
-#include "contact/mirrored.hpp"
-#include "rollfix/answer/solve.hpp"
+#include "log/mirrored.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/solve.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

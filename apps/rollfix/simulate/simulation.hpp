@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/contact/finger.hpp"
-#include "rollfix/contact/rolling.hpp"
+#include "rollfix/finger.hpp"
 #include "rollfix/output/report.hpp"
-#include "rollfix/part/part.hpp"
-#include "rollfix/per_finger.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
+#include "rollfix/rolling.hpp"
 
 namespace rollfix::app {
 

@@ -1,6 +1,6 @@
 #include "rollfix/watch/beginning.hpp"
 
-#include "contact/log_table.hpp"
+#include "log/log_table.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -17,7 +17,7 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/touch_text.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/hearing.hpp"
 #include "rollfix/watch/source.hpp"

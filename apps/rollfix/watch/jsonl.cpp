@@ -4,9 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "files/documents/json_output.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/files/documents.hpp"
+#include "documents/json_output.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/identify.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"
 

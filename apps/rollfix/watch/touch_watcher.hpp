@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/touch/next_touch.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/advise.hpp"
+#include "rollfix/touch.hpp"
 #include "rollfix/watch/watcher.hpp"
 
 namespace rollfix::app {

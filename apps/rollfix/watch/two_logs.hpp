@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 #include "rollfix/watch/watcher.hpp"
 
 namespace rollfix::app {

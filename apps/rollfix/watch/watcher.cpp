@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "rollfix/catalog/track.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
 #include "rollfix/watch/beginning.hpp"
 #include "rollfix/watch/two_logs.hpp"
 #include "watch/meaning.hpp"

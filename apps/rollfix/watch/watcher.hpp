@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/contact/log.hpp"
-#include "rollfix/part/part.hpp"
-#include "rollfix/watch/tracker.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/tracker.hpp"
 
 namespace rollfix::app {
 

@@ -6,8 +6,8 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

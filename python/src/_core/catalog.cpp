@@ -1,9 +1,8 @@
-#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/identify.hpp"
 
 #include "bindings.hpp"
 #include "handles.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

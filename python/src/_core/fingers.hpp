@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "handles.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/finger.hpp"
-#include "rollfix/contact/noise.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/finger.hpp"
+#include "rollfix/reading.hpp"
 
 // Fingers and noise as the Python classes of these names hold them.
 namespace rollfix::python {

@@ -1,11 +1,11 @@
-#include "rollfix/hold/hold.hpp"
+#include "rollfix/hold.hpp"
 
 #include <utility>
 
 #include "bindings.hpp"
 #include "handles.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -6,9 +6,9 @@
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "contact/log_rows.hpp"
 #include "fingers.hpp"
-#include "rollfix/contact/log.hpp"
+#include "log/log_rows.hpp"
+#include "rollfix/log.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

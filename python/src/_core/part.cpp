@@ -5,11 +5,11 @@
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "rollfix/files/documents.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -6,7 +6,7 @@
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/documents.hpp"
 
 namespace rollfix::python {
 namespace {

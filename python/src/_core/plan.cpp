@@ -1,4 +1,4 @@
-#include "rollfix/plan/plan.hpp"
+#include "rollfix/plan.hpp"
 
 #include <array>
 
@@ -6,7 +6,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "plan_handle.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/documents.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

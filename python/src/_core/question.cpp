@@ -1,4 +1,4 @@
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 #include <fmt/format.h>
 

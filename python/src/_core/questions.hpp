@@ -2,7 +2,7 @@
 
 #include "arrays.hpp"
 #include "fingers.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 
 namespace rollfix::python {
 

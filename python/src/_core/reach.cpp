@@ -1,10 +1,10 @@
-#include "rollfix/part/reach.hpp"
+#include "rollfix/part.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/solve.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -5,11 +5,10 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "rollfix/answer/next_roll.hpp"
-#include "rollfix/contact/rig.hpp"
-#include "rollfix/contact/rolling.hpp"
-#include "rollfix/contact/teach.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/advise.hpp"
+#include "rollfix/documents.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/teach.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

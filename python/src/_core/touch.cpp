@@ -1,11 +1,11 @@
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 #include <cmath>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "rollfix/certify/certify.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/documents.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -4,7 +4,7 @@
 
 #include "bindings.hpp"
 #include "handles.hpp"
-#include "rollfix/question/question.hpp"
+#include "rollfix/question.hpp"
 #include "rollfix/watch/watcher.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "signals.hpp"

@@ -1,7 +1,7 @@
 #include "handles.hpp"
 #include "plan_handle.hpp"
-#include "rollfix/answer/solve.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix::python {
 

@@ -6,7 +6,7 @@
 
 #include "belief/one/grid.hpp"
 #include "belief/posterior.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "belief/posterior.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 // Notation:
 //   w               tilted turning of the first contact, Theta + c s: the grid's coordinate; h is a cell's width

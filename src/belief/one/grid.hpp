@@ -10,7 +10,7 @@
 
 #include "belief/one/point_scorer.hpp"
 #include "belief/posterior.hpp"
-#include "rollfix/belief/belief.hpp"
+#include "rollfix/belief.hpp"
 
 namespace rollfix::belief {
 

@@ -9,8 +9,8 @@
 
 #include "belief/one/roll_filter.hpp"
 #include "belief/one/side_by_side.hpp"
-#include "rollfix/belief/belief.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
 

@@ -10,7 +10,7 @@
 #include "belief/nodes.hpp"
 #include "belief/posterior.hpp"
 #include "belief/tilted_boundary.hpp"
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
 

@@ -6,7 +6,7 @@
 
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 // Notation:
 //   leaf            a square of a region's grid with its density and its share of the mass: PairLeaf

@@ -7,7 +7,7 @@
 
 #include "belief/even_rows.hpp"
 #include "belief/nodes.hpp"
-#include "rollfix/contact/reading.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix::belief {
 

@@ -11,7 +11,7 @@
 
 #include "belief/two/pair_density.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/part/boundary.hpp"
+#include "rollfix/turning_function.hpp"
 
 // Notation:
 //   w               tilted turnings (w_a, w_b) of two first contacts: `PairStart::w`

@@ -8,9 +8,8 @@
 #include "cells.hpp"
 #include "clues.hpp"
 #include "index.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "profile.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/per_finger.hpp"
+#include "rollfix/reading.hpp"
 
 namespace rollfix {
 

@@ -13,7 +13,7 @@
 #include "answer/weighing.hpp"
 #include "belief/error_model.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate.hpp"
 
 // Notation, as in docs/identify.md, the table of what may be off:
 //   L, theta        a row's length and turn: `Clue::length`, `Clue::turn`

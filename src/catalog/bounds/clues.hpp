@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "clue.hpp"
-#include "rollfix/answer/answer.hpp"
-#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 

@@ -2,7 +2,7 @@
 
 #include "cells.hpp"
 #include "clue.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -8,7 +8,7 @@
 #include "cells.hpp"
 #include "centre_cells.hpp"
 #include "profile.hpp"
-#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/identify.hpp"
 
 namespace rollfix {
 

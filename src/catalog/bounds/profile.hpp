@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 // The least and the largest Theta on equal cells of the boundary. Whatever lies in a cell lies between its bounds, so
 // that nothing that fits is lost; see docs/identify.md.

@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "index.hpp"
-#include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/touch.hpp"
 #include "touch/cell_search.hpp"
 
 namespace rollfix {

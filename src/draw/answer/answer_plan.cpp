@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix::draw {
 namespace {

@@ -11,7 +11,7 @@
 #include "draw/plot.hpp"
 #include "draw/rolls.hpp"
 #include "draw/scene.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 
 namespace rollfix::draw {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix::draw {
 

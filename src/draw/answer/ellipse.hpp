@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix::draw {
 

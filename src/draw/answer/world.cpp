@@ -11,7 +11,7 @@
 #include "draw/answer/ellipse.hpp"
 #include "draw/legend.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/contact/log.hpp"
+#include "rollfix/log.hpp"
 
 namespace rollfix::draw {
 namespace {

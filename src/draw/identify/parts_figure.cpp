@@ -1,4 +1,4 @@
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 
 #include "draw/identify/part_panel.hpp"
 #include "draw/identify/parts_plan.hpp"

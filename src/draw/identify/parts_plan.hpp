@@ -7,7 +7,7 @@
 
 #include "draw/answer/answer_plan.hpp"
 #include "draw/legend.hpp"
-#include "rollfix/draw/figures.hpp"
+#include "rollfix/draw.hpp"
 
 namespace rollfix::draw {
 

@@ -11,9 +11,9 @@
 
 #include "outline/size_limit.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::dxf {
 

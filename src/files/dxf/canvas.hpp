@@ -9,7 +9,7 @@
 #include "files/dxf/model.hpp"
 #include "files/dxf/tags.hpp"
 #include "outline/box.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::dxf {
 

@@ -14,9 +14,9 @@
 #include "files/dxf/canvas.hpp"
 #include "files/dxf/read.hpp"
 #include "files/dxf/tags.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::dxf {

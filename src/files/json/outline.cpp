@@ -10,9 +10,9 @@
 
 #include "files/json/fields.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

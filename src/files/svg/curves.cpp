@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "outline/box.hpp"
+#include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::svg {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/svg/value.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::svg {
 

@@ -1,7 +1,6 @@
 #include "components.hpp"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "family_line.hpp"
+#include "pieces_meet.hpp"
 
 // Notation:
 //   piece           a connected set of pairs (s, t) within the tolerance: a box, a convex `hull`, or a `line`, off by
@@ -19,102 +19,10 @@
 //   slack           pieces that come as near as this are one: `same_place_`, or `kJointWidth` P where both are exact
 //   slant           s + `kSlant` t, the direction that pieces are sorted along
 //   clump           pieces too small and too near together to be told apart, joined beforehand
-// Follows docs/search.md, "Two fingers", step 7. Convex sets are compared by separating axes.
+// Follows docs/search.md, "Two fingers", step 7.
 // Idea: sweep along the slant, link the pieces that touch, and take connected components: each is one placement.
 namespace rollfix {
 namespace {
-
-/// Does a segment come closer than `slack` to a box?
-bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, double slack) {
-  for (const std::size_t k : {0U, 1U}) {
-    if (std::max(a[k], b[k]) < box[k].lo - slack || std::min(a[k], b[k]) > box[k].hi + slack) return false;
-  }
-  double lo = 0;
-  double hi = 1;
-  for (const std::size_t k : {0U, 1U}) {
-    const double step = b[k] - a[k];
-    const double least = box[k].lo - slack - a[k];
-    const double most = box[k].hi + slack - a[k];
-    if (step == 0) {
-      if (least > 0 || most < 0) return false;
-      continue;
-    }
-    lo = std::max(lo, std::min(least / step, most / step));
-    hi = std::min(hi, std::max(least / step, most / step));
-  }
-  return lo <= hi;
-}
-
-bool boxes_meet(const PairBox& one, const PairBox& two, double slack) {
-  return one[0].lo <= two[0].hi + slack && two[0].lo <= one[0].hi + slack && one[1].lo <= two[1].hi + slack &&
-         two[1].lo <= one[1].hi + slack;
-}
-
-bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const PairBox& box, double slack) {
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    if (segment_meets(moved(line[k], shift), moved(line[k + 1], shift), box, slack)) return true;
-  }
-  return false;
-}
-
-using Corners = boost::container::small_vector<PairPoint, 8>;
-
-Corners polygon_of(const PairPiece& piece, const Shift& shift) {
-  Corners polygon;
-  for (const PairPoint& point : piece.hull) polygon.push_back(moved(point, shift));
-  if (!polygon.empty()) return polygon;
-  const PairBox box = moved(piece.box, shift);
-  return {{box[0].lo, box[1].lo}, {box[0].hi, box[1].lo}, {box[0].hi, box[1].hi}, {box[0].lo, box[1].hi}};
-}
-
-/// Is there a direction of `one`'s edges, or across them, in which the two convex polygons are apart?
-bool separates(const Corners& one, const Corners& two, double slack) {
-  for (std::size_t k = 0; k < one.size(); ++k) {
-    const PairPoint& from = one[k];
-    const PairPoint& to = one[(k + 1) % one.size()];
-    const double length = distance(from, to);
-    if (length == 0) continue;
-    const PairPoint along{(to[0] - from[0]) / length, (to[1] - from[1]) / length};
-    for (const PairPoint& axis : {along, PairPoint{-along[1], along[0]}}) {
-      const auto span = [&](const Corners& polygon) {
-        Interval interval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-        for (const PairPoint& point : polygon) {
-          // From a corner of one, so that small polygons keep their digits.
-          const double x = axis[0] * (point[0] - from[0]) + axis[1] * (point[1] - from[1]);
-          interval.lo = std::min(interval.lo, x);
-          interval.hi = std::max(interval.hi, x);
-        }
-        return interval;
-      };
-      const Interval a = span(one);
-      const Interval b = span(two);
-      if (a.lo > b.hi + slack || b.lo > a.hi + slack) return true;
-    }
-  }
-  return false;
-}
-
-bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift, double slack) {
-  const PairBox other = moved(two.box, shift);
-  const double reach = slack + one.error + two.error;
-  if (!boxes_meet(one.box, other, reach)) return false;
-  if (one.line.empty() && two.line.empty()) {
-    if (one.hull.empty() && two.hull.empty()) return true;
-    const Corners at_one = polygon_of(one, {0, 0});
-    const Corners at_two = polygon_of(two, shift);
-    return !separates(at_one, at_two, reach) && !separates(at_two, at_one, reach);
-  }
-  if (two.line.empty()) return line_meets(one.line, {0, 0}, other, reach);
-  if (one.line.empty()) return line_meets(two.line, shift, one.box, reach);
-  for (std::size_t k = 0; k + 1 < one.line.size(); ++k) {
-    const PairPoint& a = one.line[k];
-    const PairPoint& b = one.line[k + 1];
-    const PairBox segment{Interval{std::min(a[0], b[0]), std::max(a[0], b[0])},
-                          Interval{std::min(a[1], b[1]), std::max(a[1], b[1])}};
-    if (boxes_meet(segment, other, 2 * reach) && line_meets(two.line, shift, segment, reach)) return true;
-  }
-  return false;
-}
 
 // What is near is looked for along a slant, s + kSlant t: on a part that repeats itself as many pieces as repetitions
 // have the same s, or the same t. By the golden ratio, which is far from all fractions.
@@ -146,6 +54,21 @@ bool is_a_point(const PairPiece& piece, double width) {
          std::max(piece.box[0].width(), piece.box[1].width()) + piece.error <= width;
 }
 
+/// Sets of numbers below `count`, at first one each.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+
+  std::size_t of(std::size_t number) {
+    while (parent_[number] != number) number = parent_[number] = parent_[parent_[number]];
+    return number;
+  }
+  void join(std::size_t one, std::size_t two) { parent_[of(two)] = of(one); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
 /// Their indices in order of where they begin.
 std::vector<std::size_t> by_place(const std::vector<Interval>& intervals) {
   std::vector<std::size_t> order(intervals.size());
@@ -164,6 +87,7 @@ class Joiner {
         closed_(part.closed()),
         same_place_(same_place),
         room_(pieces_.size(), 0),
+        joined_(pieces_.size()),
         links_(pieces_.size()) {}
 
   std::vector<PairCluster> run() {
@@ -196,6 +120,17 @@ class Joiner {
     return widened(pieces_[piece].box, pieces_[piece].error + room_[piece]);
   }
 
+  void join(std::size_t one, std::size_t two, const Shift& shift) {
+    joined_.join(one, two);
+    links_[one].push_back({two, shift});
+    links_[two].push_back({one, {-shift[0], -shift[1]}});
+  }
+
+  /// A family is walked along all of its links; elsewhere it is enough that pieces hang together.
+  bool adds_nothing(std::size_t one, std::size_t two) {
+    return joined_.of(one) == joined_.of(two) && !(pieces_[one].exact && pieces_[two].exact);
+  }
+
   /// Joins each clump to its first piece, which stands for it from here on: returns what is left to be swept.
   std::vector<std::size_t> clump() {
     std::vector<std::size_t> left;
@@ -214,8 +149,7 @@ class Joiner {
       }
       const std::size_t first = at->second;
       room_[first] = 2 * width;  // a square's side and a box in it
-      links_[first].push_back({k, {0, 0}});
-      links_[k].push_back({first, {0, 0}});
+      join(first, k, {0, 0});
     }
     return left;
   }
@@ -316,9 +250,15 @@ class Joiner {
           return std::tie(pieces_[a].box[0].lo, rank_[a]) < std::tie(pieces_[b].box[0].lo, rank_[b]);
         });
         for (const std::size_t two : near) {
-          const double slack = slack_of(pieces_[one].exact && pieces_[two].exact) + room_[one] + room_[two];
-          if (pieces_meet(pieces_[one], pieces_[two], shift, slack)) {
+          if (adds_nothing(one, two)) continue;
+          const bool both_exact = pieces_[one].exact && pieces_[two].exact;
+          const double slack = slack_of(both_exact) + room_[one] + room_[two];
+          if (!pieces_meet(pieces_[one], pieces_[two], shift, slack)) continue;
+          if (both_exact) {  // the other way as well, when it is that one's turn
+            joined_.join(one, two);
             links_[one].push_back({two, shift});
+          } else {
+            join(one, two, shift);
           }
         }
       }
@@ -326,7 +266,7 @@ class Joiner {
   }
 
   /// Those whose boxes, moved by the shift, meet the piece's.
-  void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) const {
+  void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) {
     const PairPiece& one = pieces_[piece];
     const double slack = slack_of(one.exact && strip.exact);
     const double by = along_slant(shift);
@@ -341,7 +281,8 @@ class Joiner {
       auto next = std::lower_bound(band.begin(), band.end(), from,
                                    [&](std::size_t k, double value) { return reach_[k].lo < value; });
       for (; next != band.end() && reach_[*next].lo <= to; ++next) {
-        if (*next != piece && boxes_meet(reach_box(piece), moved(reach_box(*next), shift), slack)) {
+        if (*next != piece && !adds_nothing(piece, *next) &&
+            boxes_meet(reach_box(piece), moved(reach_box(*next), shift), slack)) {
           near.push_back(*next);
         }
       }
@@ -482,6 +423,7 @@ class Joiner {
   bool closed_;
   double same_place_;
   std::vector<double> room_;       // around each piece for the rest of its clump
+  Sets joined_;                    // what hangs together by links
   std::vector<Interval> reach_;    // of each piece along the slant
   std::vector<std::size_t> rank_;  // of each piece
   std::vector<std::vector<PieceLink>> links_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pair_find.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -2,7 +2,7 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix {
 

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/part/boundary.hpp"
-#include "rollfix/part/turning_function.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/turning_function.hpp"
 
 namespace rollfix {
 

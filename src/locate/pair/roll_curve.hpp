@@ -14,7 +14,7 @@
 #include "range.hpp"
 #include "roll_equations.hpp"
 #include "roll_strips.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

@@ -7,7 +7,7 @@
 #include "part/turning_tree.hpp"
 #include "range.hpp"
 #include "roll_equations.hpp"
-#include "rollfix/part/part.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 

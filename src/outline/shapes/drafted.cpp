@@ -5,8 +5,8 @@
 #include <random>
 
 #include "outline/shapes/shapes.hpp"
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix::shapes {
 

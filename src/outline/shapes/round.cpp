@@ -6,7 +6,7 @@
 
 #include "outline/shapes/shapes.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/curve.hpp"
 
 namespace rollfix::shapes {
 

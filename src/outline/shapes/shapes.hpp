@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/outline.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/outline.hpp"
 
 namespace rollfix {
 

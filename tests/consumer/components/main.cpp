@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <string>
 
-#include "rollfix/catalog/identify.hpp"
-#include "rollfix/draw/figures.hpp"
-#include "rollfix/files/load_part.hpp"
-#include "rollfix/march/march.hpp"
+#include "rollfix/draw.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/identify.hpp"
+#include "rollfix/march.hpp"
 #include "rollfix/rollfix.hpp"
 
 int main() {

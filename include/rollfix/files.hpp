@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rollfix/finger.hpp"
+#include "rollfix/outline.hpp"
+#include "rollfix/part.hpp"
+#include "rollfix/solve.hpp"
+
+namespace rollfix {
+
+/// How to take what the user names. What does not apply to the kind of file is refused, never ignored.
+struct LoadOptions {
+  OutlineOptions points;            // `open` and `unit` are for drawings as well: the longest open chain
+  std::optional<std::size_t> loop;  // of a drawing, counted from 1 as in LoadedPart::loops
+  std::optional<Length> gap;        // of a drawing: ends this close together meet; default see LoopOptions
+  bool outer = false;               // of a drawing: where more than two ends meet, what is around the outside
+  std::string layer;                // of a DXF: only this one
+  bool allow_crossing = false;      // see PartOptions
+  bool saved_name = false;          // a saved part is called as it was when it was saved, not as its file
+};
+
+/// A part with what its file said besides. Its unit is that of the options: where the file states another, the part is
+/// converted; where it states none (points without a unit in their header, the pixels of an SVG, the gallery) the
+/// numbers are taken to be in it.
+struct LoadedPart {
+  Part part;
+  std::string unit;         // of all lengths: "mm", "in", ...; empty where neither the file nor the options say
+  std::vector<Loop> loops;  // of a drawing: the closed ones by falling area, then the open ones by falling length
+  std::size_t loop = 0;     // the one that was taken, counted from 1; 0: not a drawing
+  std::vector<std::string> notes;  // all that was left out, joined or chosen: for the user to read
+};
+
+/// The part that the user calls by this argument, which becomes its name: "gallery:NAME,key=value,...", a file by its
+/// ending (.csv .dat .txt points, .dxf, .svg, .json a gallery shape, curves or a saved part), or "-" for standard
+/// input, known by how it begins. Throws InputError: what the parts throw, an ending that is not known, an option that
+/// does not apply, or a drawing without a closed loop (with the size and the place of the gap). Options are always
+/// given, mostly as {}: load_part(argument) is the core's, which takes the gallery and points only.
+LoadedPart load_part(const std::string& argument, const LoadOptions& options);
+
+/// The part through the points of such a text, which messages call by this name. Throws InputError as load_part does.
+LoadedPart load_points(std::string text, const std::string& name, const LoadOptions& options);
+
+/// A part that is there, as if it had been saved and loaded: converted to the unit of the options.
+LoadedPart loaded_part(const Part& part, const LoadOptions& options);
+
+/// What a part is: how large, how curved, how ambiguous rolls on it are, where a finger can touch it.
+struct Inspection {
+  Part part;
+  std::string unit;         // of a drawing, empty: not known
+  std::vector<Loop> loops;  // of a drawing
+  std::size_t loop = 0;     // the one that the part is, counted from 1
+  BoundingBox box;
+  Interval curvature;
+  double largest_disk = 0;
+  int symmetry = 1;
+  std::vector<Ambiguity> ambiguity;
+  std::optional<Finger> finger{};  // that was asked about, and ...
+  std::optional<Reach> reach{};    // ... how far it can reach
+};
+
+/// Tries rolls all along the boundary for `ambiguity`: the slow part. Throws InputError: a finger of which it is not
+/// known where it can touch (see has_reach), or a disk that is not valid.
+Inspection inspect(const LoadedPart& loaded, const std::optional<Finger>& finger = {});
+
+/// A part's outline as the text of a file: JSON whose numbers are kept bit by bit, with a version and a checksum.
+/// Throws InputError when the outline has curves of a type that can't be saved (one of the user's own, without
+/// `record()`).
+std::string format_part(const Part& part);
+
+/// The part of such a text: it answers every question with the same bits as the one that was saved. `name` is what
+/// messages call the text and becomes the part's name. Throws InputError: not such a text, of another version, or
+/// changed since it was written.
+Part parse_part(std::string_view text, const std::string& name);
+
+/// Whether a JSON text says of itself, in its first field, that it is a saved part of whatever version.
+bool is_saved_part(std::string_view text);
+
+/// What the part of such a text, of one that parse_part takes, was called when it was saved.
+std::string saved_name(std::string_view text);
+
+/// Writes format_part to a file. Throws InputError also when it can't be written.
+void save_part(const Part& part, const std::string& path);
+
+}  // namespace rollfix

@@ -1,0 +1,151 @@
+#include "rollfix/advise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rollfix/error.hpp"
+#include "rollfix/plan.hpp"
+#include "rollfix/solve.hpp"
+
+namespace rollfix {
+namespace {
+
+// Without noise a turn can be read this well: well below what tells two places apart, well above rounding.
+constexpr double kTurnSd = 1e-4;
+// Rows of a log at about the same place, of which the turn there is known: a tenth of the log, and no more than this,
+// as neighbours may be off alike.
+constexpr double kMostRowsTogether = 10;
+constexpr double kTogether = 0.1;
+/// Why a part can't be told apart from itself.
+std::string why_no_roll(const Part& part) {
+  const int fold = symmetry(part);
+  if (fold == 0) return "the part looks the same from every place on its boundary";
+  if (fold > 1) return fmt::format("the part looks the same from {} places", fold);
+  return "within the travel the places that remain look alike";
+}
+
+void require_fingers_to_plan(const Answer& answer) {
+  if (answer.finger_count() < 2) {
+    throw InputError("friction: one finger on a part at rest needs none to roll: leave it out");
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Finger* const finger = finger_of(answer.fingers, k);
+    if (finger != nullptr && (finger->is_disk() || finger->is_jaw())) continue;
+    throw InputError(fmt::format("friction: expected two fingers that are disks or jaws, found {}",
+                                 finger == nullptr ? "none" : finger->name()));
+  }
+}
+
+/// Next to nothing: where that can't be planned the part could not be held, so that it is not the true place.
+PerFinger<double> hardly(PerFinger<double> by) {
+  constexpr double kHardly = 1e-3;
+  for (double& length : by) length *= kHardly;
+  return by;
+}
+
+/// Why two fingers can't roll on by these lengths from a place; nothing: they can.
+std::optional<std::string> why_not_planned(const Answer& answer, const Contender& from, const PerFinger<double>& by,
+                                           const PerFinger<double>& friction) {
+  PlanProblem problem{answer.part, PerFinger<PlanFinger>(PlanFinger{}, PlanFinger{})};
+  for (std::size_t k = 0; k < 2; ++k) {
+    PlanFinger& finger = problem.fingers[k];
+    finger.finger = *finger_of(answer.fingers, k);
+    finger.start = from.place[k];
+    finger.length = by[k];
+    finger.friction = friction[k];
+  }
+  return plannable(problem);
+}
+
+}  // namespace
+
+AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel) {
+  AdviceOptions options;
+  options.turn_sd = kTurnSd;
+  if (answer.weighing) {
+    const Noise& noise = answer.weighing->noise;
+    // From one row to another: the errors of both, of each finger.
+    double turn_variance = 0;
+    for (std::size_t k = 0; k < answer.finger_count(); ++k) {
+      const double curvature = answer.fingers.empty() ? 0 : finger_of(answer.fingers, k)->curvature(0);
+      turn_variance += 2 * (std::pow(noise.angle, 2) + std::pow(noise.contact * curvature, 2));
+      options.length_share_sd = std::max(options.length_share_sd, std::hypot(noise.slip, noise.radius * curvature));
+    }
+    options.turn_sd = std::max(std::sqrt(turn_variance), kTurnAccuracy);
+    options.length_sd = noise.contact * std::numbers::sqrt2;
+    options.rows = std::clamp(kTogether * static_cast<double>(answer.weighing->samples), 1.0, kMostRowsTogether);
+  }
+  options.travel = travel;
+  return options;
+}
+
+ReachForAdvice::ReachForAdvice(const Answer& answer) {
+  for (std::size_t k = 0; k < answer.finger_count(); ++k) {
+    const Finger* const finger = finger_of(answer.fingers, k);
+    if (finger != nullptr && has_reach(*finger)) each_[k] = reach_of(answer.part, *finger);
+  }
+}
+
+PerFinger<const Reach*> ReachForAdvice::pointers() const {
+  PerFinger<const Reach*> pointers = PerFinger<const Reach*>::of(2);
+  for (const std::size_t k : {0U, 1U}) pointers[k] = each_[k] ? &*each_[k] : nullptr;
+  return pointers;
+}
+
+std::optional<PerFinger<double>> disks_for_advice(const Answer& answer, bool may_overlap) {
+  if (answer.finger_count() < 2 || may_overlap) return std::nullopt;
+  PerFinger<double> radii(0, 0);
+  for (const std::size_t k : {0U, 1U}) {
+    const Finger* const finger = finger_of(answer.fingers, k);
+    if (finger == nullptr || !finger->is_disk()) return std::nullopt;
+    radii[k] = finger->length_per_u();
+  }
+  return radii;
+}
+
+double NextRoll::turn_ahead(const Contender& contender) const {
+  return rollfix::turn_ahead(answer.part, contender, advice->lengths());
+}
+
+NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel, bool may_overlap,
+                   const std::optional<PerFinger<double>>& friction) {
+  if (friction) require_fingers_to_plan(answer);
+  NextRoll next{answer, contenders_of(answer.part, answer.placements)};
+  if (next.contenders.empty()) {
+    next.why = "nothing fits: there is nothing to tell apart";
+    return next;
+  }
+  if (next.contenders.size() == 1 || (answer.weighing && answer.verdict.name == Verdict::unique)) {
+    next.why = "there is only one place left";
+    return next;
+  }
+  AdviceOptions options = advice_options(answer, travel);
+  const ReachForAdvice reach(answer);
+  options.reach = reach.pointers();
+  options.disks = disks_for_advice(answer, may_overlap);
+  const Advice any = advise(answer.part, next.contenders, options);
+  next.advice = any;
+  if (friction && any.helps) {
+    bool can_any = false;
+    options.can_roll = [&](const PartContender& from, const PerFinger<double>& by) {
+      const bool can = !why_not_planned(answer, from.contender, by, *friction);
+      can_any = can_any || can;
+      return can || why_not_planned(answer, from.contender, hardly(by), *friction);
+    };
+    next.advice = advise(answer.part, next.contenders, options);
+    if (!can_any) {
+      next.advice->helps = false;
+      next.why = "with this friction the fingers could not hold the part in any of them";
+    } else if (!next.advice->helps) {
+      next.why = "with this friction the fingers can do none that would, from every place where they can hold the part";
+    }
+  } else if (!any.helps) {
+    next.why = why_no_roll(answer.part);
+  }
+  return next;
+}
+
+}  // namespace rollfix

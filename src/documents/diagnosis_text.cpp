@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "documents/documents.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+namespace {
+
+struct CauseText {
+  Cause cause;
+  const char* name;  // in JSON
+  const char* what;
+  const char* cure;
+};
+
+// What is wrong, and what to give instead: options that can be typed as they stand, or a sentence without any. Where
+// numbers belong in them they are put together below.
+constexpr std::array<CauseText, 24> kCauses = {{
+    {Cause::none, "none", "", ""},
+    {Cause::unsaid_noise, "unsaid_noise",
+     "the rows jitter by more than their digits say, but no noise was stated; slip and a wrong radius may add to it",
+     ""},
+    {Cause::noise, "noise", "", ""},
+    {Cause::correlation, "correlation",
+     "the errors of rows are not independent: neighbours are alike, as with a sensor that drifts, wobbles or "
+     "repeats its digits, or with a part that moved a little",
+     "state over what length of roll neighbouring errors are alike: the noise's correlation, a length"},
+    {Cause::prior, "prior", "what --prior, --heading or --pose says contradicts the rows", "leave it out"},
+    {Cause::radius, "radius", "", ""},
+    {Cause::u_degrees, "u_degrees", "u is in degrees", "--columns u=u:deg"},
+    {Cause::psi_degrees, "psi_degrees", "psi is in degrees", "--columns psi=psi:deg"},
+    {Cause::angles_degrees, "angles_degrees", "u and psi are in degrees", "--columns u=u:deg,psi=psi:deg"},
+    {Cause::turn_degrees, "turn_degrees", "turns are in degrees", "give turns with their unit, as in 73deg"},
+    {Cause::u_radians, "u_radians", "u is in radians", "--columns u=u:rad"},
+    {Cause::psi_radians, "psi_radians", "psi is in radians", "--columns psi=psi:rad"},
+    {Cause::angles_radians, "angles_radians", "u and psi are in radians", "--columns u=u:rad,psi=psi:rad"},
+    {Cause::turn_radians, "turn_radians", "turns are in radians", "--columns turn=turn:rad"},
+    {Cause::u_clockwise, "u_clockwise", "u is counted clockwise", "counter-clockwise angles: change the sign of u"},
+    {Cause::psi_clockwise, "psi_clockwise", "psi is counted clockwise",
+     "counter-clockwise angles: change the sign of psi"},
+    {Cause::u_psi_swapped, "u_psi_swapped", "u and psi are exchanged", "--columns u=psi,psi=u"},
+    {Cause::fingers_swapped, "fingers_swapped", "the two fingers are exchanged: their logs, or their radii", ""},
+    {Cause::gyroscope, "gyroscope", "", ""},
+    {Cause::both_clockwise, "both_clockwise", "the part lies face down, or all angles are counted clockwise",
+     "--mirror"},
+    {Cause::length_backwards, "length_backwards", "lengths are counted against the outline's direction",
+     "--direction either"},
+    {Cause::turn_clockwise, "turn_clockwise", "turns are counted clockwise",
+     "counter-clockwise angles: change the sign of the turn"},
+    {Cause::stray, "stray", "", "--robust"},
+    {Cause::slip, "slip", "lengths are wrong here and there: probably the finger slipped", ""},
+}};
+constexpr CauseText kAnotherPart = {Cause::part, "part",
+                                    "neither other lengths, signs or units nor slip explain the rows: probably it is "
+                                    "another part, another finger, or another side of the part",
+                                    "check the part and the finger"};
+
+const CauseText& text_of(Cause cause) {
+  const auto* const found =
+      std::find_if(kCauses.begin(), kCauses.end(), [&](const CauseText& one) { return one.cause == cause; });
+  return found == kCauses.end() ? kAnotherPart : *found;
+}
+
+/// A mistake in units that a factor of lengths is known by.
+struct KnownScale {
+  double scale;
+  const char* what;
+};
+constexpr std::array<KnownScale, 14> kKnownScales = {{{0.5, "a diameter was given for the radius"},
+                                                      {2, "the radius was halved, as if it were a diameter"},
+                                                      {10, "centimetres were taken for millimetres"},
+                                                      {0.1, "millimetres were taken for centimetres"},
+                                                      {1000, "metres were taken for millimetres"},
+                                                      {0.001, "millimetres were taken for metres"},
+                                                      {100, "metres were taken for centimetres"},
+                                                      {0.01, "centimetres were taken for metres"},
+                                                      {25.4, "inches were taken for millimetres"},
+                                                      {1 / 25.4, "millimetres were taken for inches"},
+                                                      {2.54, "inches were taken for centimetres"},
+                                                      {1 / 2.54, "centimetres were taken for inches"},
+                                                      {39.37007874, "metres were taken for inches"},
+                                                      {0.0254, "inches were taken for metres"}}};
+// A scale is taken for a known one where it is within these many standard deviations of it, and within this share.
+constexpr double kKnownSigmas = 4;
+constexpr double kKnownShare = 0.02;
+
+std::string known_scale(const Diagnosis& diagnosis) {
+  for (const KnownScale& known : kKnownScales) {
+    const double off = std::abs(diagnosis.length_scale - known.scale);
+    if (off <= std::max(kKnownSigmas * diagnosis.length_scale_sd, 1e-3 * known.scale) &&
+        off <= kKnownShare * known.scale) {
+      return known.what;
+    }
+  }
+  return "";
+}
+
+std::string noise_option(const Noise& noise, double scale) {
+  std::vector<std::string> fields;
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    if (sd <= 0) continue;
+    const bool is_of_rows = &(noise.*kind.sd) == &noise.contact || &(noise.*kind.sd) == &noise.angle;
+    const double now = is_of_rows ? scale * sd : sd;
+    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
+    fields.push_back(is_angle ? fmt::format("{}={:.3g}deg", kind.name, now * 180 / std::numbers::pi)
+                              : fmt::format("{}={:.3g}", kind.name, now));
+  }
+  return fmt::format("--noise {}", fmt::join(fields, ","));
+}
+
+/// As it was typed, whatever its digits.
+std::string finger_option(const Finger& finger) {
+  if (!finger.is_disk()) return "--finger " + quoted_for_shell(finger.name());
+  return fmt::format("--finger disk,r={}", finger.disk()->radius);
+}
+
+std::string columns_option(const std::vector<ColumnSource>& columns) {
+  std::vector<std::string> fields;
+  for (const ColumnSource& source : columns) {
+    fields.push_back(fmt::format("{}={}{}{}", source.column, source.name, source.unit.empty() ? "" : ":", source.unit));
+  }
+  return "--columns " + quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
+}
+
+/// What is to be given, without the noise that it is to be given with.
+std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
+  if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise, 1);
+  if (diagnosis.cause == Cause::slip || diagnosis.cause == Cause::gyroscope) {
+    Noise more = noise;
+    if (diagnosis.cause == Cause::slip) more.slip = diagnosis.slip;
+    if (diagnosis.cause == Cause::gyroscope) more.gyro = diagnosis.gyro;
+    return noise_option(more, 1);
+  }
+  if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
+  if (diagnosis.cause == Cause::fingers_swapped) {
+    if (fingers.size() != 2) return "give both in the other order";
+    return fmt::format("{} {}", finger_option(fingers[1]), finger_option(fingers[0]));
+  }
+  if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
+  if (diagnosis.cause == Cause::radius) {
+    const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),
+                                                          [](const Finger& finger) { return finger.is_disk(); });
+    if (!of_disks) return fmt::format("lengths that are {:.5g} times as long", diagnosis.length_scale);
+    std::vector<std::string> options;
+    const std::size_t count = diagnosis.finger ? 2 : fingers.size();  // one may serve for both
+    for (std::size_t k = 0; k < count; ++k) {
+      const Finger& finger = *finger_of(fingers, k);
+      const bool is_off = diagnosis.finger.value_or(k) == k;
+      options.push_back(is_off ? fmt::format("--finger disk,r={:.5g}", diagnosis.length_scale * finger.disk()->radius)
+                               : finger_option(finger));
+    }
+    return fmt::format("{}", fmt::join(options, " "));
+  }
+  return text_of(diagnosis.cause).cure;
+}
+
+bool is_any(const Noise& noise) { return noise.contact > 0 || noise.angle > 0; }
+
+}  // namespace
+
+const char* name_of(Cause cause) { return text_of(cause).name; }
+
+std::string about(const Diagnosis& diagnosis) {
+  switch (diagnosis.cause) {
+    case Cause::noise:
+      return fmt::format("the rows are {:.3g} times as noisy as said", diagnosis.noise_scale);
+    case Cause::radius: {
+      const std::string known = known_scale(diagnosis);
+      constexpr double kExact = 5e-6;  // of the scale: what its digits don't show
+      const std::string whose =
+          diagnosis.finger ? fmt::format(" of finger {}", *diagnosis.finger == 0 ? 'a' : 'b') : "";
+      std::string scale =
+          fmt::format("all lengths{} are {:.5g} times what was measured", whose, diagnosis.length_scale);
+      if (diagnosis.length_scale_sd > kExact * diagnosis.length_scale) {
+        scale += fmt::format(", give or take {:.2g}", diagnosis.length_scale_sd);
+      }
+      if (diagnosis.finger) return scale + ": a wrong radius of that finger";
+      return scale + (known.empty() ? ": a wrong radius of the finger, or a wrong unit" : ": " + known);
+    }
+    case Cause::gyroscope:
+      return fmt::format("all turns are {:.4f} +- {:.2g} times what was measured: a gyroscope's scale",
+                         diagnosis.turn_scale, diagnosis.turn_scale_sd);
+    case Cause::stray:
+      return fmt::format("{} {} stray", counted(diagnosis.stray, "row", "rows"), diagnosis.stray == 1 ? "is" : "are");
+    default:
+      return text_of(diagnosis.cause).what;
+  }
+}
+
+std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& said) {
+  const std::string cure = cure_alone(diagnosis, fingers, is_any(said) ? said : diagnosis.noise);
+  const bool is_all =
+      is_any(said) || !is_any(diagnosis.noise) || !cure.starts_with("--") || cure.find("--noise") != std::string::npos;
+  return is_all ? cure : fmt::format("{} {}", cure, noise_option(diagnosis.noise, 1));
+}
+
+}  // namespace rollfix

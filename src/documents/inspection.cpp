@@ -1,0 +1,129 @@
+#include "rollfix/files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "documents/documents.hpp"
+#include "documents/outline_numbers.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/solve.hpp"
+
+namespace rollfix {
+namespace {
+
+Json corners_json(const Part& part) {
+  Json list = Json::array();
+  for (const Corner& corner : part.corners()) {
+    list.push_back({{"s", json_number(corner.s)},
+                    {"turn", json_number(corner.turn)},
+                    {"joint", std::abs(corner.turn) < kJointTurn}});
+  }
+  return list;
+}
+
+Json ambiguity_json(const Inspection& inspection) {
+  Json list = Json::array();
+  for (const Ambiguity& entry : inspection.ambiguity) {
+    list.push_back({{"length", json_number(inspection.part.perimeter() / entry.share)},
+                    {"rolls", entry.rolls},
+                    {"rolls_with_stretch", entry.with_stretch},
+                    {"mean_placements", json_number(entry.mean_placements)},
+                    {"most_placements", entry.most_placements}});
+  }
+  return list;
+}
+
+/// Of a drawing what it holds besides.
+Json loops_json(const Inspection& inspection) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < inspection.loops.size(); ++k) {
+    const Loop& loop = inspection.loops[k];
+    list.push_back({{"number", k + 1},
+                    {"taken", k + 1 == inspection.loop},
+                    {"closed", loop.outline.closed},
+                    {"hole", loop.outline.hole},
+                    {"depth", loop.depth},
+                    {"curves", loop.outline.curves.size()},
+                    {"length", json_number(loop.length)},
+                    {"area", loop.outline.closed ? json_number(loop.area) : Json(nullptr)},
+                    {"gap", json_number(loop.gap)},
+                    {"start", point_json(loop.outline.curves.front().front())}});
+  }
+  return list;
+}
+
+/// Where a pivot is not possible all the way, the angles that are.
+Json pivots_json(const Reach& reach) {
+  Json list = Json::array();
+  for (const PivotReach& pivot : reach.pivots) {
+    Json angles = Json::array();
+    for (const Interval& interval : pivot.angles) angles.push_back(json_interval(interval));
+    list.push_back({{"s", json_number(pivot.s)}, {"whole", json_interval(pivot.whole)}, {"angles", angles}});
+  }
+  return list;
+}
+
+Json reach_json(const Inspection& inspection) {
+  if (!inspection.reach) return nullptr;
+  Json arcs = Json::array();
+  for (const Interval& arc : inspection.reach->arcs) arcs.push_back(json_interval(arc));
+  return {{"finger", name_of(*inspection.finger)},
+          {"share", json_number(inspection.reach->share())},
+          {"arcs", arcs},
+          {"pivots", pivots_json(*inspection.reach)},
+          {"slack", json_number(inspection.reach->slack)},
+          {"decided", inspection.reach->decided}};
+}
+
+}  // namespace
+
+std::string name_of(const Finger& finger) {
+  const std::optional<DiskFinger> disk = finger.disk();
+  return disk ? fmt::format("disk,r={}", disk->radius) : finger.name();
+}
+
+Inspection inspect(const LoadedPart& loaded, const std::optional<Finger>& finger) {
+  if (finger && !has_reach(*finger)) {
+    throw InputError(
+        fmt::format("the finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
+  }
+  const Part& part = loaded.part;
+  Inspection inspection{part,
+                        loaded.unit,
+                        loaded.loops,
+                        loaded.loop,
+                        bounding_box(part),
+                        curvature_range(part),
+                        largest_disk(part),
+                        symmetry(part),
+                        ambiguity(part)};
+  inspection.finger = finger;
+  if (finger) inspection.reach = reach_of(part, *finger);
+  return inspection;
+}
+
+Json inspection_json(const Inspection& inspection) {
+  const Part& part = inspection.part;
+  return {{"schema", "rollfix/inspect/1"},
+          {"part", part_json(part)},
+          {"unit", inspection.unit.empty() ? Json(nullptr) : Json(inspection.unit)},
+          {"accuracy", accuracy_json(part.outline().accuracy)},
+          {"loops", loops_json(inspection)},
+          {"area", part.closed() ? json_number(enclosed_area(part.outline())) : Json(nullptr)},
+          {"total_turn", json_number(part.total_turn())},
+          {"box", Json::array({point_json(inspection.box.lo), point_json(inspection.box.hi)})},
+          {"start", {{"point", point_json(part.point(0))}, {"tangent", json_number(part.tangent(0))}}},
+          {"spirals", part.turning().spirals().size()},
+          {"curvature", Json::array({json_number(inspection.curvature.lo), json_number(inspection.curvature.hi)})},
+          {"largest_disk", json_number(inspection.largest_disk)},
+          {"symmetry", inspection.symmetry == 0 ? Json(nullptr) : Json(inspection.symmetry)},
+          {"inflections", json_numbers(part.inflections())},
+          {"vertices", json_numbers(part.vertices())},
+          {"corners", corners_json(part)},
+          {"ambiguity", ambiguity_json(inspection)},
+          {"reach", reach_json(inspection)},
+          {"outline", outline_json(part)}};
+}
+
+}  // namespace rollfix

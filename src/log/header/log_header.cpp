@@ -1,0 +1,517 @@
+#include "log/header/log_header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rollfix/error.hpp"
+#include "text/number.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+
+namespace {
+
+// Behind what is missing where x and y are there.
+constexpr const char* kOfWheel = "; a wheel without skin has no more, it is a finger wheel,r=R beside one with skin";
+constexpr const char* kExpected = "'u' and 'psi', or 'length' and 'turn', or 'distance' and 'dturn'";
+
+bool is_known(std::string_view name) {
+  return std::find(kColumnNames.begin(), kColumnNames.end(), name) != kColumnNames.end();
+}
+
+/// The name without this end; nothing where it has another.
+std::optional<std::string_view> stem_of(std::string_view name, std::string_view suffix) {
+  if (name.size() <= suffix.size() || name.substr(name.size() - suffix.size()) != suffix) return std::nullopt;
+  return name.substr(0, name.size() - suffix.size());
+}
+
+/// Whether one of the pairs has a column of this name.
+bool says_where(std::string_view name) {
+  return std::any_of(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& pair) {
+    return name == name_of(pair.place) || name == name_of(pair.angle);
+  });
+}
+
+bool says_where_of_one_of_two(std::string_view name) {
+  return std::any_of(kFingerSuffixes.begin(), kFingerSuffixes.end(), [&](const char* suffix) {
+    const auto stem = stem_of(name, suffix);
+    return stem && says_where(*stem);
+  });
+}
+
+/// The column of this name, for a finger whose columns end in this.
+std::optional<Column> column_named(std::string_view name, const std::string& suffix) {
+  for (std::size_t k = 0; k < kColumnCount; ++k) {
+    const auto column = static_cast<Column>(k);
+    const bool is_common = column == Column::time || column == Column::contact;
+    if (name == kColumnNames[k] + suffix && (suffix.empty() || column != Column::time)) return column;
+    if (is_common && name == kColumnNames[k]) return column;
+  }
+  return std::nullopt;
+}
+
+/// What is said of a column besides its unit, "wrapped" or "unwrapped", taken off the end of "deg:unwrapped".
+std::optional<bool> take_wrapping(std::string_view& unit) {
+  const std::size_t colon = unit.rfind(':');
+  const std::string_view last = colon == std::string_view::npos ? unit : trimmed(unit.substr(colon + 1));
+  if (last != "wrapped" && last != "unwrapped") return std::nullopt;
+  unit = colon == std::string_view::npos ? std::string_view() : trimmed(unit.substr(0, colon));
+  return last == "wrapped";
+}
+
+/// "u [deg]", "u(deg)".
+HeaderName header_name(std::string_view text) {
+  HeaderName result{text, text, {}};
+  if (text.empty()) return result;
+  const char open = text.back() == ']' ? '[' : text.back() == ')' ? '(' : '\0';
+  const std::size_t start = open == '\0' ? std::string_view::npos : text.rfind(open);
+  if (start == std::string_view::npos || start == 0) return result;
+  result.name = trimmed(text.substr(0, start));
+  result.unit = trimmed(text.substr(start + 1, text.size() - start - 2));
+  return result;
+}
+
+bool is_in_brackets(std::string_view text) {
+  return text.size() > 2 &&
+         ((text.front() == '[' && text.back() == ']') || (text.front() == '(' && text.back() == ')'));
+}
+
+}  // namespace
+
+std::vector<HeaderName> names_in(const TableRow& header) {
+  std::vector<std::string_view> cells;
+  for (const std::string_view cell : header.cells) {
+    const bool is_unit = !cells.empty() && !cells.back().empty() && is_in_brackets(cell);
+    if (is_unit) {
+      const char* const last_end = cells.back().data() + cells.back().size();
+      const std::string_view between(last_end, static_cast<std::size_t>(cell.data() - last_end));
+      if (trimmed(between).empty()) {
+        cells.back() = {cells.back().data(), cells.back().size() + between.size() + cell.size()};
+        continue;
+      }
+    }
+    cells.push_back(cell);
+  }
+  std::vector<HeaderName> names;
+  for (const std::string_view cell : cells) names.push_back(header_name(cell));
+  return names;
+}
+
+namespace {
+
+/// Reads one header.
+class HeaderReader {
+ public:
+  HeaderReader(const TableRow& row, const std::string& log, const LogOptions& options)
+      : row_(row), names_(names_in(row)), log_(log), options_(options) {}
+
+  Columns pin_columns() const {
+    Columns columns;
+    columns.count = names_.size();
+    columns.of_pin = true;
+    std::vector<bool> taken(names_.size(), false);
+    add_named(columns, taken);
+    add_known(columns, taken);
+    require_pin(columns);
+    if (!columns.psi_wrapped) columns.psi_wrapped = options_.wrapped;
+    return columns;
+  }
+
+  std::vector<Columns> columns() const {
+    if (!is_of_two()) {
+      Columns one = finger_columns("");
+      one.note = other_finger_note(names_, one);
+      return {one};
+    }
+    std::vector<Columns> fingers;
+    for (const char* suffix : kFingerSuffixes) fingers.push_back(finger_columns(suffix));
+    if (fingers[0].kind == fingers[1].kind) return fingers;
+    throw InputError(
+        fmt::format("{} has other columns of finger a than of finger b, expected the same of both", start()));
+  }
+
+ private:
+  std::string start() const { return fmt::format("{}: the header '{}'", where(log_, row_.line), shown(row_.text)); }
+
+  bool is_of_two() const {
+    const auto& sources = options_.columns;
+    const auto is_two = [](const ColumnSource& source) { return says_where_of_one_of_two(source.column); };
+    const auto is_one = [](const ColumnSource& source) { return says_where(source.column); };
+    if (std::any_of(sources.begin(), sources.end(), is_two)) return true;
+    if (std::any_of(sources.begin(), sources.end(), is_one)) return false;
+    return std::none_of(names_.begin(), names_.end(), [](const HeaderName& one) { return says_where(one.name); }) &&
+           std::any_of(names_.begin(), names_.end(),
+                       [](const HeaderName& one) { return says_where_of_one_of_two(one.name); });
+  }
+
+  Columns finger_columns(const std::string& suffix) const;
+  void require_pin(const Columns& columns) const;
+  void add_named(Columns& columns, std::vector<bool>& taken) const;
+  void add_known(Columns& columns, const std::vector<bool>& taken) const;
+  void set(Columns& columns, Column column, std::size_t k) const;
+  void set_unit(Columns& columns, Column column, const HeaderName& header, const std::string& stated) const;
+  std::size_t find(const ColumnSource& source) const;
+  LogKind kind_of(const Columns& columns) const;
+  std::string hint(const Columns& columns) const;
+  std::string cure(const Columns& columns) const;
+  std::string all_names() const;
+  [[noreturn]] void refuse(const Columns& columns) const;
+
+  const TableRow& row_;
+  std::vector<HeaderName> names_;
+  const std::string& log_;
+  const LogOptions& options_;
+};
+
+/// The columns of the finger whose columns end in this.
+Columns HeaderReader::finger_columns(const std::string& suffix) const {
+  Columns columns;
+  columns.count = names_.size();
+  columns.suffix = suffix;
+  std::vector<bool> taken(names_.size(), false);
+  add_named(columns, taken);
+  add_known(columns, taken);
+  columns.kind = kind_of(columns);
+  if (!columns.u_wrapped) columns.u_wrapped = options_.wrapped;
+  if (!columns.psi_wrapped) columns.psi_wrapped = options_.wrapped;
+  if (columns.has(Column::x) != columns.has(Column::y)) {
+    throw InputError(fmt::format("{}: the header has a column '{}' but no '{}', expected both or neither{}",
+                                 where(log_, row_.line), columns.called(columns.has(Column::x) ? Column::x : Column::y),
+                                 columns.called(columns.has(Column::x) ? Column::y : Column::x), cure(columns)));
+  }
+  return columns;
+}
+
+void HeaderReader::require_pin(const Columns& columns) const {
+  for (const Column column : {Column::u, Column::length, Column::distance}) {
+    if (!columns.has(column)) continue;
+    throw InputError(
+        fmt::format("{} has a column '{}', expected x and y of the pin and at most psi: a wheel has no skin; a round "
+                    "finger with one is disk,r=R in place of wheel,r=R",
+                    start(), name_of(column)));
+  }
+  if (columns.has(Column::x) && columns.has(Column::y)) return;
+  const std::string why = columns.has(Column::psi)
+                              ? ": how the wheel is turned says nothing of the part by itself, any "
+                                "place on it fits; add where the pin was"
+                              : "";
+  throw InputError(
+      fmt::format("{}: expected columns 'x' and 'y', where the wheel's pin was in the world{}; the header has {}",
+                  start(), why, all_names()));
+}
+
+/// Those that the options name.
+void HeaderReader::add_named(Columns& columns, std::vector<bool>& taken) const {
+  for (const ColumnSource& source : options_.columns) {
+    const std::optional<Column> column = column_named(source.column, columns.suffix);
+    if (!column) {
+      if (!columns.suffix.empty() && !says_where_of_one_of_two(source.column) && is_known(source.column)) {
+        throw InputError(fmt::format("{}: `columns` {}={}: the log is of two fingers, expected {}_a and {}_b",
+                                     where(log_, row_.line), source.column, source.name, source.column, source.column));
+      }
+      continue;
+    }
+    const std::size_t cell = find(source);
+    if (taken[cell]) {
+      throw InputError(
+          fmt::format("{}: `columns` reads '{}' twice, as {} as well: expected a column of its own for each",
+                      where(log_, row_.line), source.name, source.column));
+    }
+    taken[cell] = true;
+    set(columns, *column, cell);
+    std::string_view unit = source.unit;
+    if (*column == Column::u) columns.u_wrapped = take_wrapping(unit);
+    if (*column == Column::psi) columns.psi_wrapped = take_wrapping(unit);
+    set_unit(columns, *column, names_[cell], std::string(unit));
+  }
+}
+
+/// Those that have a known name, where the options do not name another.
+void HeaderReader::add_known(Columns& columns, const std::vector<bool>& taken) const {
+  const Columns named = columns;
+  const auto is_named = [&](const ColumnPair& pair) { return named.has(pair.place) || named.has(pair.angle); };
+  const bool pair_is_chosen = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), is_named);
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    const std::optional<Column> column = column_named(names_[k].name, columns.suffix);
+    if (!column || taken[k] || named.has(*column)) continue;
+    const auto* const pair = std::find_if(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& one) {
+      return one.place == *column || one.angle == *column;
+    });
+    if (pair_is_chosen && pair != kColumnPairs.end() && !is_named(*pair)) continue;
+    set(columns, *column, k);
+    set_unit(columns, *column, names_[k], "");
+  }
+}
+
+void HeaderReader::set(Columns& columns, Column column, std::size_t k) const {
+  std::size_t& cell = columns.cell[static_cast<std::size_t>(column)];
+  if (cell != Columns::kNone) {
+    const std::string_view before = names_[cell].text;
+    throw InputError(fmt::format("{}: the column '{}' occurs twice, as number {}{} and {}; rename one of them",
+                                 where(log_, row_.line), shown(names_[k].text), cell + 1,
+                                 before == names_[k].text ? "" : fmt::format(" ('{}')", shown(before)), k + 1));
+  }
+  cell = k;
+  columns.source[static_cast<std::size_t>(column)] = {columns.called(column), std::string(names_[k].name)};
+  if (column == Column::contact) columns.contact_is_shared = names_[k].name == name_of(Column::contact);
+}
+
+/// `stated`: by the options; it goes before what the header says.
+void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& header,
+                            const std::string& stated) const {
+  if (column == Column::contact) return;
+  std::string_view written = stated.empty() ? header.unit : stated;
+  if (written.empty() && is_angle(column)) written = options_.angles;
+  const std::string what =
+      fmt::format("{}: the column '{}' ({})", where(log_, row_.line), shown(header.text), columns.called(column));
+  if (written.empty()) {
+    const std::string meant = unit_in_name(header.name, column, options_.unit);
+    const bool may_be_the_parts = column != Column::u && !is_angle(column) && column != Column::time;
+    if (meant.empty() || (may_be_the_parts && options_.unit.empty())) return;
+    throw InputError(fmt::format(
+        "{} sounds like {}, which is not taken for granted: say it with its unit, as in `columns` {}={}:{}{}", what,
+        meant, columns.called(column), header.name, meant,
+        is_angle(column) ? fmt::format(", or with :rad where the numbers are radians") : ""));
+  }
+  const std::optional<Unit> unit = unit_named(written);
+  if (!unit || !takes(column, unit->dimension)) {
+    throw InputError(fmt::format("{} is in '{}', expected {}", what, shown(written), what_it_takes(column)));
+  }
+  columns.source[static_cast<std::size_t>(column)].unit = written;
+  if (column == Column::u) columns.u_dimension = unit->dimension;
+  Conversion& to = columns.conversion[static_cast<std::size_t>(column)];
+  if (unit->dimension != Dimension::length) {
+    to = conversion_to_plain(*unit);
+  } else if (!options_.unit.empty()) {
+    to = length_conversion(unit->name, options_.unit, what);
+  } else {
+    throw InputError(fmt::format("{} is in {}, and the part's unit is not known: state it with `unit`, as in `unit` {}",
+                                 what, unit->name, unit->name));
+  }
+}
+
+/// The cell of the name that the options give.
+std::size_t HeaderReader::find(const ColumnSource& source) const {
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    if (names_[k].text == source.name || names_[k].name == source.name) return k;
+  }
+  std::vector<std::string> names;
+  for (const HeaderName& one : names_) names.emplace_back(one.name);
+  const std::string nearest = nearest_name(source.name, names);
+  throw InputError(fmt::format("{}: expected a column '{}' for {} (`columns`), found none{}; the header has {}",
+                               where(log_, row_.line), source.name, source.column,
+                               nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), all_names()));
+}
+
+std::string HeaderReader::all_names() const {
+  constexpr std::size_t kMost = 30;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(names_.size(), kMost); ++k) names.push_back(shown(names_[k].text));
+  return fmt::format("{}{}", fmt::join(names, ", "), names_.size() > kMost ? ", ..." : "");
+}
+
+/// Which of the pairs the log has: exactly one of them, and whole.
+LogKind HeaderReader::kind_of(const Columns& columns) const {
+  const ColumnPair* found = nullptr;
+  for (const ColumnPair& pair : kColumnPairs) {
+    const bool has_place = columns.has(pair.place);
+    if (has_place != columns.has(pair.angle)) {
+      const bool is_wheels = pair.angle == Column::psi && !has_place && columns.has(Column::x);
+      throw InputError(fmt::format("{} has a column '{}' but no '{}', expected both{}{}{}", start(),
+                                   columns.called(has_place ? pair.place : pair.angle),
+                                   columns.called(has_place ? pair.angle : pair.place), hint(columns), cure(columns),
+                                   is_wheels ? kOfWheel : ""));
+    }
+    if (!has_place) continue;
+    if (found != nullptr) {
+      throw InputError(fmt::format(
+          "{}: the header has '{}' and '{}' as well as '{}' and '{}', expected only one of these pairs; rename the "
+          "columns that are not to be used, or choose a pair: `columns` {}={},{}={}",
+          where(log_, row_.line), columns.called(found->place), columns.called(found->angle),
+          columns.called(pair.place), columns.called(pair.angle), columns.called(found->place),
+          names_[columns[found->place]].name, columns.called(found->angle), names_[columns[found->angle]].name));
+    }
+    found = &pair;
+  }
+  if (found == nullptr) refuse(columns);
+  return static_cast<LogKind>(found - kColumnPairs.data());
+}
+
+/// The likely typo: a name that is not known but near to one that is missing. Too many names are near to x, y and u.
+std::string HeaderReader::hint(const Columns& columns) const {
+  std::vector<std::string> missing;
+  for (std::size_t k = 0; k < kColumnCount; ++k) {
+    const bool is_word = std::string_view(kColumnNames[k]).size() > 1;
+    if (is_word && columns.cell[k] == Columns::kNone) missing.push_back(columns.called(static_cast<Column>(k)));
+  }
+  for (const HeaderName& one : names_) {
+    if (is_known(one.name) || (!columns.suffix.empty() && says_where_of_one_of_two(one.name))) continue;
+    const std::string nearest = nearest_name(std::string(one.name), missing);
+    if (!nearest.empty()) return fmt::format("; did you mean '{}' by '{}'?", nearest, shown(one.text));
+  }
+  return "";
+}
+
+/// The option that says it.
+std::string HeaderReader::cure(const Columns& columns) const {
+  const bool any_is_left =
+      std::any_of(names_.begin(), names_.end(), [](const HeaderName& one) { return !is_known(one.name); });
+  if (!any_is_left) return fmt::format("; the header has {}", all_names());
+  return fmt::format("; say which column is which, as in `columns` {} (the header has {}){}",
+                     suggested_columns(names_, columns), all_names(),
+                     columns.suffix.empty() ? "; touches without rolling have x and y alone" : "");
+}
+
+void HeaderReader::refuse(const Columns& columns) const {
+  if (!columns.suffix.empty()) {
+    const bool is_a = columns.suffix == kFingerSuffixes[0];
+    const bool is_of_one = !holds_columns_of(names_, is_a ? 0 : 1);
+    const std::string of_one = fmt::format("; of one finger alone say `columns` {} (the header has {})",
+                                           suggested_columns(names_, {}), all_names());
+    throw InputError(fmt::format(
+        "{} has columns of finger {} but none of finger {}, expected the same of both, such as 'u_a', 'psi_a', 'u_b' "
+        "and 'psi_b'{}{}",
+        start(), is_a ? 'b' : 'a', is_a ? 'a' : 'b', is_of_one ? "" : hint(columns),
+        is_of_one ? of_one : cure(columns)));
+  }
+  const bool is_wheels = columns.has(Column::x) && columns.has(Column::y);
+  throw InputError(fmt::format(
+      "{} does not say what the columns are, expected {}{}{}{}. Known are: {}; of two fingers with _a and _b behind "
+      "them",
+      start(), kExpected, hint(columns), cure(columns), is_wheels ? kOfWheel : "", fmt::join(kColumnNames, ", ")));
+}
+
+/// Throws InputError; `what` begins the message.
+ColumnSource parse_source(std::string_view field, const std::string& what) {
+  const std::size_t mark = field.find('=');
+  if (mark == std::string_view::npos || mark == 0 || mark + 1 == field.size()) {
+    throw InputError(
+        fmt::format("{}: '{}' is not COLUMN=NAME or COLUMN=NAME:UNIT, as in u=contact_deg:deg", what, shown(field)));
+  }
+  ColumnSource source{std::string(trimmed(field.substr(0, mark))), std::string(trimmed(field.substr(mark + 1)))};
+  std::optional<Column> column;
+  for (const char* const suffix : {"", kFingerSuffixes[0], kFingerSuffixes[1]}) {
+    if (!column) column = column_named(source.column, suffix);
+  }
+  if (!column) {
+    throw InputError(fmt::format("{}: there is no column '{}'; {}; of two fingers with _a and _b behind them", what,
+                                 shown(source.column),
+                                 known_names(source.column, {kColumnNames.begin(), kColumnNames.end()})));
+  }
+  std::string wrapping;
+  std::string_view before = source.name;
+  const bool may_wrap = column == Column::u || column == Column::psi;
+  if (may_wrap && before.find(':') != std::string_view::npos && take_wrapping(before)) {
+    wrapping = trimmed(std::string_view(source.name).substr(source.name.rfind(':') + 1));
+    source.name = before;
+  }
+  source.unit = wrapping;
+  const std::size_t colon = source.name.rfind(':');
+  if (colon == std::string::npos) return source;
+  const std::optional<Unit> unit = unit_named(trimmed(std::string_view(source.name).substr(colon + 1)));
+  if (!unit || !takes(*column, unit->dimension)) {
+    throw InputError(
+        fmt::format("{}: '{}' of {} is not in a unit of it, expected {}; behind a name with a colon in it "
+                    "goes another colon and the unit",
+                    what, shown(source.name), source.column, what_it_takes(*column)));
+  }
+  source.unit = fmt::format("{}{}{}", unit->name, wrapping.empty() ? "" : ":", wrapping);
+  source.name = trimmed(std::string_view(source.name).substr(0, colon));
+  return source;
+}
+
+}  // namespace
+
+bool takes(Column column, Dimension dimension) {
+  switch (column) {
+    case Column::time:
+      return dimension == Dimension::time;
+    case Column::u:
+      return dimension != Dimension::time;
+    case Column::contact:
+      return false;
+    default:
+      return dimension == (is_angle(column) ? Dimension::angle : Dimension::length);
+  }
+}
+
+std::string what_it_takes(Column column) {
+  std::vector<std::string> taken;
+  for (const Dimension dimension : {Dimension::angle, Dimension::length, Dimension::time}) {
+    if (takes(column, dimension)) taken.push_back(fmt::format("{} ({})", name_of(dimension), unit_names(dimension)));
+  }
+  return taken.empty() ? "0 or 1, without a unit" : fmt::format("{}", fmt::join(taken, " or "));
+}
+
+std::vector<ColumnSource> parse_columns(std::string_view text) {
+  const std::string what = fmt::format("`columns` {}", shown(text));
+  std::vector<ColumnSource> sources;
+  for (const std::string_view field : split(text, ',')) {
+    sources.push_back(parse_source(field, what));
+    const auto is_same = [&](const ColumnSource& one) { return one.column == sources.back().column; };
+    if (std::find_if(sources.begin(), sources.end(), is_same) != sources.end() - 1) {
+      throw InputError(fmt::format("{}: {} is given twice", what, sources.back().column));
+    }
+  }
+  return sources;
+}
+
+std::vector<Columns> columns_of(const TableRow& header, const std::string& log, const LogOptions& options) {
+  return HeaderReader(header, log, options).columns();
+}
+
+Columns pin_columns_of(const TableRow& header, const std::string& log, const LogOptions& options) {
+  return HeaderReader(header, log, options).pin_columns();
+}
+
+namespace {
+
+/// No finger turns by half a turn from one row to the next: so large a number is a place.
+std::string note_of_touches(const TableRow& row, const Columns& columns) {
+  const auto turn = static_cast<std::size_t>(Column::dturn);
+  const std::optional<double> value = parse_number(row.cells[1]);
+  if (!value || std::abs(columns.conversion[turn](*value)) <= std::numbers::pi) return "";
+  return fmt::format(
+      "line {}: two columns without a header are taken for distance and dturn; they look like x,y of touches: if so, "
+      "name them in a header, x,y",
+      row.line);
+}
+
+}  // namespace
+
+Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options) {
+  if (!options.columns.empty()) {
+    throw InputError(
+        fmt::format("{}: the log starts with '{}', numbers, expected a header with the names that "
+                    "`columns` gives; put one in front of the rows",
+                    where(log, row.line), shown(row.text)));
+  }
+  if (row.cells.size() != 2) {
+    throw InputError(fmt::format(
+        "{}: the log starts with '{}', {} numbers without a header: expected a header that names {}, or exactly two "
+        "columns, distance and dturn; touched places are named x,y. Known are: {}",
+        where(log, row.line), shown(row.text), row.cells.size(), kExpected, fmt::join(kColumnNames, ", ")));
+  }
+  Columns columns;
+  columns.count = 2;
+  columns.kind = LogKind::increments;
+  columns.cell[static_cast<std::size_t>(Column::distance)] = 0;
+  columns.cell[static_cast<std::size_t>(Column::dturn)] = 1;
+  if (const std::optional<Unit> unit = unit_named(options.angles)) {
+    columns.conversion[static_cast<std::size_t>(Column::dturn)] = conversion_to_plain(*unit);
+  }
+  columns.note = note_of_touches(row, columns);
+  return columns;
+}
+
+}  // namespace rollfix

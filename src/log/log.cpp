@@ -1,0 +1,452 @@
+#include "rollfix/log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "log/log_rows.hpp"
+#include "log/log_table.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/units.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// What a reader makes of contact that is lost and found again.
+enum class Splitting { refused, into_rolls };
+
+/// Rows that a roll needs, so that there is a reading.
+std::size_t least_rows(LogKind kind, bool is_later_roll) {
+  return kind == LogKind::contact || is_later_roll ? 2 : 1;  // else the first contact lies before the rows
+}
+
+/// Makes logs of the rows that a reader gives.
+class LogMaker {
+ public:
+  LogMaker(const RowReader& reader, Splitting splitting, bool single_rows, bool of_pin)
+      : reader_(reader), splitting_(splitting), single_rows_(single_rows), of_pin_(of_pin) {}
+
+  void take(RowKind kind, const LogRow& row) {
+    if (kind == RowKind::none) return;
+    any_row_ = true;
+    if (kind == RowKind::off) {
+      any_without_contact_ = true;
+      if (roll_.rows() > 0 && lost_line_ == 0) lost_line_ = row.line;
+      return;
+    }
+    if (lost_line_ != 0) find_again(row.line);
+    if (roll_.rows() == 0) start_roll();
+    add(row);
+  }
+
+  /// `skipped`: why rows were left out.
+  std::vector<Log> finish(const std::vector<std::string>& skipped) {
+    if (!reader_.knows_columns()) {
+      throw InputError(fmt::format("{}: is empty, expected a log with a header such as '{}'", reader_.name(),
+                                   of_pin_ ? "time,x,y" : "time,u,psi"));
+    }
+    const std::size_t last_rows = roll_.rows();
+    end_roll();
+    if (rolls_.empty()) {
+      const bool none_in_contact = last_rows == 0 && any_row_;
+      throw InputError(fmt::format(
+          "{}: holds {} row{} of a roll{}, expected at least {}{}", reader_.name(), last_rows,
+          last_rows == 1 ? "" : "s", none_in_contact ? " in contact" : "",
+          least_rows(reader_.kind(), false) == 2 ? "2: the first contact and where it went from there" : "1",
+          skipped.empty() ? ""
+                          : fmt::format("; {} {} left out, the first: {}", skipped.size(),
+                                        skipped.size() == 1 ? "row was" : "rows were", skipped.front())));
+    }
+    for (Log& roll : rolls_) {
+      roll.skipped = skipped;
+      roll.contact_was_off = any_without_contact_;
+      if (rolls_.size() == 1) break;
+      const std::vector<std::size_t>& line = roll.fingers[0].line;
+      roll.name += fmt::format(", lines {} to {}", line.front(), line.back());
+    }
+    return std::move(rolls_);
+  }
+
+ private:
+  void start_roll() {
+    roll_.name = reader_.name();
+    roll_.kind = reader_.kind();
+    roll_.unit = reader_.unit();
+    roll_.fingers.assign(reader_.columns().size(), FingerRows{});
+    for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
+      roll_.fingers[k].u_dimension = reader_.columns()[k].u_dimension;
+      for (const ColumnSource& source : reader_.columns()[k].source) {
+        if (!source.name.empty()) roll_.fingers[k].columns.push_back(source);
+      }
+      roll_.fingers[k].u_wrapped = reader_.columns()[k].u_wrapped;
+      roll_.fingers[k].psi_wrapped = reader_.columns()[k].psi_wrapped;
+    }
+    roundings_.assign(roll_.fingers.size(), FingerRounding{});
+    odometers_.assign(roll_.fingers.size(), Odometer(reader_.kind(), is_later_roll_));
+  }
+
+  void add(const LogRow& row) {
+    if (row.time) roll_.time.push_back(*row.time);
+    for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
+      FingerRows& finger = roll_.fingers[k];
+      const FingerCells& cells = row.fingers[k];
+      roundings_[k].place.add(cells.place);
+      roundings_[k].angle.add(cells.angle);
+      finger.place_rounding = roundings_[k].place.value();
+      finger.angle_rounding = roundings_[k].angle.value();
+      if (roll_.kind == LogKind::contact) {
+        finger.u.push_back(cells.place.value);
+        if (reader_.columns()[k].has(Column::psi)) finger.psi.push_back(cells.angle.value);
+      } else {
+        const Reading reading = odometers_[k].add(cells);
+        finger.length.push_back(reading.length[0]);
+        finger.turn.push_back(reading.turn);
+      }
+      if (roll_.kind == LogKind::increments) {  // that of a later roll's first contact does not count
+        const bool counts = !is_later_roll_ || finger.length.size() > 1;
+        finger.distance.push_back(counts ? cells.place.value : 0);
+        finger.dturn.push_back(counts ? cells.angle.value : 0);
+      }
+      if (reader_.columns()[k].has(Column::x)) {
+        finger.x.push_back(cells.x);
+        finger.y.push_back(cells.y);
+      }
+      finger.line.push_back(row.line);
+    }
+  }
+
+  /// Keeps the roll, unless it is too short to be one.
+  void end_roll() {
+    const bool is_touch = single_rows_ && reader_.kind() == LogKind::contact && roll_.rows() == 1;
+    if (is_touch || roll_.rows() >= least_rows(reader_.kind(), is_later_roll_)) rolls_.push_back(std::move(roll_));
+    roll_ = Log{};
+  }
+
+  void find_again(std::size_t line) {
+    if (splitting_ == Splitting::refused) {
+      throw InputError(
+          fmt::format("{}: contact is lost here and found again in line {}, expected one unbroken roll; "
+                      "split the log there, or choose one of its rolls with `roll`",
+                      where(reader_.name(), lost_line_), line));
+    }
+    end_roll();
+    is_later_roll_ = true;
+    lost_line_ = 0;
+  }
+
+  const RowReader& reader_;
+  Splitting splitting_;
+  bool single_rows_;  // are rolls
+  bool of_pin_;       // of a wheel
+  Log roll_;          // that goes on
+  std::vector<Odometer> odometers_;
+  std::vector<FingerRounding> roundings_;  // of each finger's columns
+  std::vector<Log> rolls_;
+  std::size_t lost_line_ = 0;
+  bool is_later_roll_ = false;
+  bool any_row_ = false;
+  bool any_without_contact_ = false;
+};
+
+/// Whether a row holds the units of a header above it, and nothing else.
+bool holds_units(const std::vector<std::string_view>& cells) {
+  const auto is_unit = [](std::string_view cell) { return unit_named(cell).has_value(); };
+  const auto is_none = [](std::string_view cell) { return cell.empty() || cell == "-" || cell == "1"; };
+  return std::any_of(cells.begin(), cells.end(), is_unit) &&
+         std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) { return is_none(cell) || is_unit(cell); });
+}
+
+// So many rows after one that can't be read are looked at for one that can.
+constexpr int kRowsAhead = 1000;
+
+/// Whether a row can be read further on: else leaving rows out leaves nothing.
+bool any_row_can_be_read(RowReader& reader, LogLines& lines) {
+  LogRow row;
+  std::string_view line;
+  for (int k = 0; k < kRowsAhead && lines.next(line); ++k) {
+    try {
+      if (reader.read(line, row) != RowKind::none) return true;
+    } catch (const InputError&) {  // nor this one
+    }
+  }
+  return false;
+}
+
+/// Reads rows one after the other, and leaves out what can't be read where that was asked for.
+class RowsInLines {
+ public:
+  RowsInLines(LogLines& lines, const LogOptions& options, bool of_pin)
+      : lines_(lines), skips_(options.skip_bad), reader_(lines.name(), options, of_pin) {}
+
+  const RowReader& reader() const { return reader_; }
+  const std::vector<std::string>& skipped() const { return skipped_; }
+
+  /// False after the last row.
+  bool next(RowKind& kind, LogRow& row) {
+    std::string_view line;
+    while (lines_.next(line)) {
+      try {
+        kind = reader_.read(line, row);
+      } catch (const InputError& error) {
+        leave_out(error);
+        continue;
+      }
+      if (kind == RowKind::none) continue;
+      any_ = true;
+      reader_.accept(row);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  void leave_out(const InputError& error) {
+    if (!reader_.knows_columns()) throw;  // of the header
+    if (!any_ && skipped_.empty() && holds_units(reader_.row().cells)) {
+      throw InputError(
+          fmt::format("{}:{}: '{}' are units, expected them behind the names of the columns, as in 'u [deg]', "
+                      "or said by `columns`, as in u=u:deg",
+                      lines_.name(), reader_.lines(), shown(reader_.row().text)));
+    }
+    if (skips_) {
+      skipped_.emplace_back(error.what());
+    } else if (any_ || any_row_can_be_read(reader_, lines_)) {
+      throw InputError(fmt::format("{}; `skip_bad` leaves such rows out", error.what()));
+    } else {
+      throw;
+    }
+  }
+
+  LogLines& lines_;
+  bool skips_;
+  RowReader reader_;
+  bool any_ = false;
+  std::vector<std::string> skipped_;  // why
+};
+
+/// Runs a stream of lines to its end.
+std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
+  RowsInLines rows(lines, options, of_pin);
+  LogMaker maker(rows.reader(), splitting, options.single_rows, of_pin);
+  RowKind kind = RowKind::none;
+  LogRow row;
+  while (rows.next(kind, row)) maker.take(kind, row);
+  std::vector<Log> rolls = maker.finish(rows.skipped());
+  const std::string& note = rows.reader().columns().front().note;
+  for (Log& roll : rolls) {
+    if (!note.empty()) roll.notes = {fmt::format("{}: {}", lines.name(), note)};
+  }
+  return rolls;
+}
+
+std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting,
+                               const LogOptions& options) {
+  LogLines lines(text, name);
+  return rolls_in(lines, splitting, options);
+}
+
+std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, const LogOptions& options) {
+  const OpenFile file = open_text(path);
+  const bool is_input = path == "-";
+  LogLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
+  return rolls_in(lines, splitting, options);
+}
+
+std::string columns_in(const Log& log) {
+  switch (log.kind) {
+    case LogKind::contact:
+      return "u and psi";
+    case LogKind::travelled:
+      return "length and turn";
+    case LogKind::increments:
+      break;
+  }
+  return "distance and dturn";
+}
+
+/// Simulated rows come from no file.
+std::string row_in_file(const Log& log, std::size_t row) {
+  const std::vector<std::size_t>& line = log.fingers[0].line;
+  return line.empty() ? fmt::format("{}, row {}", log.name, row + 1) : where(log.name, line[row]);
+}
+
+double duration_of(const Log& log) { return log.time.back() - log.time.front(); }
+
+void require_one_finger(const Log& log) {
+  if (log.fingers.size() == 1) return;
+  throw InputError(fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", log.name));
+}
+
+void require_same_kind(const Log& a, const Log& b) {
+  if (a.kind != b.kind) {
+    throw InputError(fmt::format("{} has {}, {} has {}: expected the same columns of both fingers", a.name,
+                                 columns_in(a), b.name, columns_in(b)));
+  }
+  if (a.time.empty() != b.time.empty()) {
+    throw InputError(fmt::format("{} has a column 'time' and {} has none: expected the same instants in both",
+                                 a.time.empty() ? b.name : a.name, a.time.empty() ? a.name : b.name));
+  }
+}
+
+template <class Column>
+void keep(Column& column, std::size_t from, std::size_t to) {
+  if (column.empty()) return;
+  column.erase(column.begin() + static_cast<std::ptrdiff_t>(to), column.end());
+  column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(from));
+}
+
+/// The rows of a log of u and psi that lie between these times.
+void keep_between(Log& log, double first, double last) {
+  const auto from =
+      static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), first) - log.time.begin());
+  const auto to = static_cast<std::size_t>(std::upper_bound(log.time.begin(), log.time.end(), last) - log.time.begin());
+  if (to < from + 2) {
+    throw InputError(
+        fmt::format("{}: holds {} of a roll in which the other finger touches the part as well, expected "
+                    "at least 2: the first contacts and where they went from there",
+                    log.name, to <= from ? "no row" : "1 row"));
+  }
+  FingerRows& rows = log.fingers[0];
+  for (std::vector<double>* column : {&log.time, &rows.u, &rows.psi, &rows.x, &rows.y}) keep(*column, from, to);
+  keep(rows.line, from, to);
+}
+
+/// One finger may have found the part earlier or lost it later than the other.
+void keep_common_contact(Log& a, Log& b) {
+  const bool is_about_contact = a.contact_was_off || b.contact_was_off;
+  if (!is_about_contact || a.kind != LogKind::contact || a.fingers[0].line == b.fingers[0].line) return;
+  if (a.time.empty()) {
+    throw InputError(
+        fmt::format("{} and {}: rows without contact were left out and there is no column 'time', so that it is not "
+                    "known which rows "
+                    "belong together; add the times",
+                    a.name, b.name));
+  }
+  const double slack = kSameInstant * std::max(duration_of(a), duration_of(b));
+  const double first = std::max(a.time.front(), b.time.front()) - slack;
+  const double last = std::min(a.time.back(), b.time.back()) + slack;
+  keep_between(a, first, last);
+  keep_between(b, first, last);
+}
+
+void require_same_times(const Log& a, const Log& b) {
+  const double slack = a.time.empty() ? 0 : kSameInstant * std::max(duration_of(a), duration_of(b));
+  const std::size_t both = std::min(a.time.size(), b.time.size());
+  for (std::size_t k = 0; k < both; ++k) {
+    if (std::abs(a.time[k] - b.time[k]) <= slack) continue;
+    throw InputError(
+        fmt::format("{} is at the time {} and {} at {}: expected the same times in both logs, row by row; resample one "
+                    "of them",
+                    row_in_file(a, k), a.time[k], row_in_file(b, k), b.time[k]));
+  }
+}
+
+void require_same_rows(const Log& a, const Log& b) {
+  if (a.rows() == b.rows()) return;
+  const Log& longer = a.rows() > b.rows() ? a : b;
+  const Log& shorter = a.rows() > b.rows() ? b : a;
+  throw InputError(
+      fmt::format("{} has {} rows and {} has {}: expected the same instants in both, but {} has no partner", a.name,
+                  a.rows(), b.name, b.rows(), row_in_file(longer, shorter.rows())));
+}
+
+}  // namespace
+
+PinLog parse_pin_log(std::string_view text, const std::string& name, const LogOptions& options) {
+  LogLines lines(text, name);
+  return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
+}
+
+PinLog read_pin_log(const std::string& path, const LogOptions& options) {
+  const OpenFile file = open_text(path);
+  const bool is_input = path == "-";
+  LogLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
+  return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
+}
+
+LogOptions options_for_finger(const LogOptions& options, std::size_t finger) {
+  LogOptions result = options;
+  result.columns.clear();
+  for (ColumnSource source : options.columns) {
+    const std::string end = source.column.size() > 2 ? source.column.substr(source.column.size() - 2) : "";
+    if (end == kFingerSuffixes[1 - finger]) continue;
+    if (end == kFingerSuffixes[finger]) source.column.resize(source.column.size() - 2);
+    result.columns.push_back(source);
+  }
+  return result;
+}
+
+Log parse_log(std::string_view text, const std::string& name, const LogOptions& options) {
+  return std::move(rolls_of_text(text, name, Splitting::refused, options).front());
+}
+
+Log read_log(const std::string& path, const LogOptions& options) {
+  return std::move(rolls_of_file(path, Splitting::refused, options).front());
+}
+
+Log read_log(const std::string& path_a, const std::string& path_b, const LogOptions& options) {
+  if (path_a == "-" && path_b == "-") {
+    throw InputError("the logs of both fingers can't come from standard input: give one of them as a file");
+  }
+  Log a = read_log(path_a, options_for_finger(options, 0));  // first, so that its errors come first
+  return paired(std::move(a), read_log(path_b, options_for_finger(options, 1)));
+}
+
+std::vector<Log> parse_rolls(std::string_view text, const std::string& name, const LogOptions& options) {
+  return rolls_of_text(text, name, Splitting::into_rolls, options);
+}
+
+std::vector<Log> read_rolls(const std::string& path, const LogOptions& options) {
+  return rolls_of_file(path, Splitting::into_rolls, options);
+}
+
+Log paired(Log a, Log b) {
+  require_one_finger(a);
+  require_one_finger(b);
+  require_same_kind(a, b);
+  keep_common_contact(a, b);
+  require_same_times(a, b);
+  require_same_rows(a, b);
+  a.fingers[0].name = a.name;
+  b.fingers[0].name = b.name;
+  a.fingers.push_back(std::move(b.fingers[0]));
+  a.contact_was_off = a.contact_was_off || b.contact_was_off;
+  a.skipped.insert(a.skipped.end(), b.skipped.begin(), b.skipped.end());
+  a.notes.clear();  // each was of one finger
+  return a;
+}
+
+Log in_unit(Log log, const std::string& unit, const std::vector<Finger>& fingers) {
+  if (log.unit.empty() || unit.empty() || log.unit == unit) return log;
+  const Conversion convert = length_conversion(log.unit, unit, log.name);
+  for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+    FingerRows& rows = log.fingers[k];
+    const Finger* const finger = finger_of(fingers, k);
+    const bool is_length = finger != nullptr ? !finger->is_disk() : rows.u_dimension == Dimension::length;
+    std::vector<std::vector<double>*> lengths{&rows.length, &rows.distance, &rows.x, &rows.y};
+    if (is_length) lengths.push_back(&rows.u);
+    for (std::vector<double>* const column : lengths) {
+      for (double& value : *column) value = convert(value);
+    }
+    if (is_length) rows.u_period = convert(rows.u_period);
+    if (is_length || log.kind != LogKind::contact) rows.place_rounding = convert(rows.place_rounding);
+  }
+  log.unit = unit;
+  return log;
+}
+
+Log one_finger(const Log& log, std::size_t finger) {
+  const FingerRows& rows = log.fingers[finger];
+  return {rows.name.empty() ? log.name : rows.name, log.kind, log.time, {rows}, log.contact_was_off, log.unit};
+}
+
+}  // namespace rollfix

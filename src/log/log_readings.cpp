@@ -1,0 +1,355 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "log/log_rows.hpp"
+#include "log/roll_check.hpp"
+#include "outline/turn.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/log.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// "run.csv:12". Simulated rows have no lines: they are numbered.
+std::string place_of(const Log& log, std::size_t finger, std::size_t row) {
+  const FingerRows& rows = log.fingers[finger];
+  const std::string& name = rows.name.empty() ? log.name : rows.name;
+  return row < rows.line.size() ? fmt::format("{}:{}", name, rows.line[row]) : fmt::format("{}, row {}", name, row + 1);
+}
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+}  // namespace
+
+void require_clear(const Log& log, std::size_t which, const Finger& finger) {
+  const FingerRows& rows = log.fingers[which];
+  const auto require = [&](Column column, const std::vector<double>& angles, const std::optional<std::size_t>& row) {
+    if (!row) return;
+    throw InputError(fmt::format(
+        "{}: {}{} goes from {:.6g} to {:.6g} in one row, which is more than half way round: whether it is "
+        "wrapped there can't be told, because the rows are far apart; say it with `wrapped` no, or `wrapped` yes",
+        place_of(log, which, *row), name_of(column), log.fingers.size() == 1 ? "" : kFingerSuffixes[which],
+        angles[*row - 1], angles[*row]));
+  };
+  require(Column::u, rows.u, unclear_step(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped));
+  require(Column::psi, rows.psi, unclear_step(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped));
+}
+
+namespace {
+
+/// One finger's rows as readings from its own first contact.
+class FingerCourse {
+ public:
+  FingerCourse(const Log& log, const std::vector<Finger>& fingers, std::size_t which, const Noise& noise)
+      : kind_(log.kind),
+        rows_(log.fingers[which]),
+        finger_(finger_of(fingers, which)),
+        within_(reach_of_corners(rows_.place_rounding, noise)) {
+    if (kind_ != LogKind::contact) return;
+    u_ = unwrapped_as_said(rows_.u, rows_.place_rounding, finger_->period(), rows_.u_wrapped);
+    psi_ = unwrapped_as_said(rows_.psi, rows_.angle_rounding, kTurn, rows_.psi_wrapped);
+  }
+
+  /// Lengths along the outline as the user gave it.
+  Reading at(std::size_t row) const {
+    if (kind_ != LogKind::contact) return {rows_.length[row], rows_.turn[row]};
+    return reading_between(*finger_, {u_.front(), psi_.front()}, {u_[row], psi_[row]}, within_);
+  }
+
+ private:
+  LogKind kind_;
+  const FingerRows& rows_;
+  const Finger* finger_;
+  double within_;
+  std::vector<double> u_;  // unwrapped
+  std::vector<double> psi_;
+};
+
+/// Every finger's, which are readings together. Throws InputError: u and psi without a finger.
+class Courses {
+ public:
+  Courses(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
+    require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
+    for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+      require_unit_of_u(log.fingers[k].u_dimension, finger_of(fingers, k), log.name);
+      if (log.kind == LogKind::contact) require_clear(log, k, *finger_of(fingers, k));
+      courses_.emplace_back(log, fingers, k, noise);
+    }
+  }
+
+  PerFinger<Reading> each(std::size_t row) const {
+    if (courses_.size() == 1) return courses_[0].at(row);
+    return {courses_[0].at(row), courses_[1].at(row)};
+  }
+  Reading at(std::size_t row) const { return together(each(row)); }
+
+ private:
+  std::vector<FingerCourse> courses_;
+};
+
+constexpr double kTurnInDegrees = 360;
+
+/// Whether a column of angles in radians looks like one of degrees: no further from 0 than one turn in degrees, and it
+/// wraps by such a turn, at this row.
+bool looks_like_degrees(const std::vector<double>& angles, std::size_t row) {
+  constexpr double kNearlyOne = 300;  // the last step before the wrap may be a long one
+  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
+  return *least >= -kTurnInDegrees && *most <= kTurnInDegrees && std::abs(angles[row] - angles[row - 1]) >= kNearlyOne;
+}
+
+/// Whether a column of angles in radians goes on by more than a radian and no more than a turn in degrees, at this row
+/// and, most of all, from row to row.
+bool goes_in_degrees(const std::vector<double>& angles, std::size_t row) {
+  constexpr double kLeastStep = 1;
+  const auto is_long = [&](std::size_t k) {
+    const double step = std::abs(angles[k] - angles[k - 1]);
+    return step >= kLeastStep && step <= kTurnInDegrees;
+  };
+  std::size_t count = 0;
+  for (std::size_t k = 1; k < angles.size(); ++k) count += is_long(k) ? 1 : 0;
+  return is_long(row) && 2 * count > angles.size();
+}
+
+/// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.
+std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Finger>& fingers, const Noise& noise,
+                         std::size_t finger, std::size_t row) {
+  const FingerRows& rows = log.fingers[finger];
+  const Finger* const shape = finger_of(fingers, finger);
+  const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[finger];
+  const bool has_angle_u = shape != nullptr && shape->is_disk();
+  const bool comes_back = without_strays(log, part, fingers, noise).rows() < log.rows();
+  std::string split =
+      fmt::format("split the log there{}", comes_back ? ", or let stray rows pass with `robust` (and `noise`)" : "");
+  if (log.kind != LogKind::contact) {
+    const double step = std::abs(rows.turn[row] - rows.turn[row - 1]);
+    if (step < std::numbers::pi || step > kTurnInDegrees) return split;
+    const char* const column = log.kind == LogKind::increments ? "dturn" : "turn";
+    return fmt::format("{0}; if the turns are in degrees, that is written `columns` {1}{2}={1}{2}:deg", split, column,
+                       suffix);
+  }
+  if (looks_like_degrees(rows.psi, row) || (has_angle_u && looks_like_degrees(rows.u, row))) {
+    const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
+    return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,
+                       suffix);
+  }
+  // One of them alone, that is not wrapped: its rows go in steps of whole degrees.
+  const bool is_psi = goes_in_degrees(rows.psi, row);
+  if (!is_psi && !(has_angle_u && goes_in_degrees(rows.u, row))) return split;
+  return fmt::format("{0}; if {1} is in degrees, that is written `columns` {1}{2}={1}{2}:deg", split,
+                     is_psi ? "psi" : "u", suffix);
+}
+
+/// Throws InputError where a finger is beyond its ends or goes where none can: see RollCheck.
+void require_physical(const Log& log, const Courses& courses, const Part& part, const std::vector<Finger>& fingers,
+                      const Noise& noise) {
+  RollCheck check(part, log.kind, fingers, log.fingers.size(), noise);
+  const std::size_t count = log.fingers.size();
+  for (std::size_t k = 0; k < count && log.kind == LogKind::contact; ++k) {
+    const FingerRows& rows = log.fingers[k];
+    for (std::size_t row = 0; row < log.rows(); ++row) {
+      const auto why = check.off_finger(k, rows.u[row], rows.place_rounding);
+      if (why) throw InputError(fmt::format("{}: {}", place_of(log, k, row), *why));
+    }
+  }
+  PerFinger<std::size_t> line = PerFinger<std::size_t>::of(count);
+  PerFinger<Reading> before = PerFinger<Reading>::of(count);
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    PerFinger<Reading> now = courses.each(row);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::vector<std::size_t>& lines = log.fingers[k].line;
+      line[k] = row < lines.size() ? lines[row] : row + 1;
+      if (log.kind != LogKind::contact) now[k] = in_stored_direction(now[k], part);
+    }
+    const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
+    if (const auto jump = check.jump(line, before, now, time)) {
+      throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}{}{}",
+                                   place_of(log, jump->finger, row), jump->why,
+                                   cure_of_jump(log, part, fingers, noise, jump->finger, row),
+                                   log.notes.empty() ? "" : "; ", fmt::join(log.notes, "; ")));
+    }
+    before = now;
+  }
+}
+
+/// How far from its own time a row may be taken: half the way to the nearer of its neighbours.
+double reach_of(const std::vector<double>& time, std::size_t row) {
+  double gap = std::numeric_limits<double>::infinity();
+  if (row > 0) gap = std::min(gap, time[row] - time[row - 1]);
+  if (row + 1 < time.size()) gap = std::min(gap, time[row + 1] - time[row]);
+  return gap / 2;
+}
+
+std::size_t nearest_row(const std::vector<double>& time, double instant) {
+  const auto after = std::lower_bound(time.begin(), time.end(), instant);
+  if (after == time.begin()) return 0;
+  const auto row = static_cast<std::size_t>(after - time.begin());
+  if (row == time.size()) return row - 1;
+  return instant - time[row - 1] <= time[row] - instant ? row - 1 : row;
+}
+
+[[noreturn]] void refuse_instant(const Log& log, double instant) {
+  const auto after = std::upper_bound(log.time.begin(), log.time.end(), instant);
+  const bool is_inside = after != log.time.begin() && after != log.time.end();
+  const std::string found = is_inside ? fmt::format("whose nearest rows are at {} and {}", *(after - 1), *after)
+                                      : fmt::format("which goes from {} to {}", log.time.front(), log.time.back());
+  throw InputError(fmt::format(
+      "{}: there is no row at the instant {} of this log, {}: expected an instant within half a row's distance of one",
+      log.name, instant, found));
+}
+
+/// Throws InputError: the first contact, from which a reading is measured, is none itself.
+void require_reading(const Log& log, std::size_t row, double instant) {
+  if (row > 0 || log.kind != LogKind::contact) return;
+  throw InputError(
+      fmt::format("{}: the instant {} means the row of the first contact, at {}, from which readings are measured: "
+                  "there L and theta are 0, which fits everywhere; expected a later one (`at`), up to {}",
+                  log.name, instant, log.time.front(), log.time.back()));
+}
+
+/// Throws InputError: a row that another instant meant already would count twice.
+void require_another(const Log& log, const std::vector<std::size_t>& rows, std::size_t row,
+                     const std::vector<double>& times) {
+  const auto before = std::find(rows.begin(), rows.end(), row);
+  if (before == rows.end()) return;
+  const double earlier = times[static_cast<std::size_t>(before - rows.begin())];
+  throw InputError(fmt::format("{}: the instants {} and {} mean the same row, at {}: leave one out (`at`){}", log.name,
+                               earlier, times[rows.size()], log.time[row],
+                               earlier == times[rows.size()] ? "" : "; the rows are farther apart than these"));
+}
+
+std::vector<std::size_t> usual_rows(const Log& log) {
+  const std::size_t last = log.rows() - 1;
+  const std::size_t middle = last / 2;
+  const std::size_t first_reading = log.kind == LogKind::contact ? 1 : 0;  // before it is the first contact
+  if (log.fingers.size() == 1 || middle < first_reading || middle == last) return {last};
+  return {middle, last};
+}
+
+/// Of one finger's readings.
+Rounding rounding_of(const Log& log, const FingerRows& rows, const Finger* finger) {
+  switch (log.kind) {
+    case LogKind::contact:
+      return {2 * finger->length_per_u() * rows.place_rounding,
+              2 * (finger->turn_per_u() * rows.place_rounding + rows.angle_rounding)};
+    case LogKind::travelled:
+      return {rows.place_rounding, rows.angle_rounding};
+    case LogKind::increments:
+      break;
+  }
+  const auto count = static_cast<double>(log.rows());
+  return {count * rows.place_rounding, count * rows.angle_rounding};
+}
+
+}  // namespace
+
+std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& times) {
+  if (times.empty()) return usual_rows(log);
+  if (log.time.empty()) {
+    throw InputError(fmt::format("{}: has no column 'time', so that instants of it can't be chosen", log.name));
+  }
+  std::vector<std::size_t> rows;
+  for (const double instant : times) {
+    if (!std::isfinite(instant)) refuse_instant(log, instant);
+    const std::size_t row = nearest_row(log.time, instant);
+    if (!(std::abs(log.time[row] - instant) <= reach_of(log.time, row))) refuse_instant(log, instant);
+    require_reading(log, row, instant);
+    require_another(log, rows, row, times);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
+  const Courses courses(log, fingers, noise);
+  std::vector<Reading> result(log.rows());
+  for (std::size_t row = 0; row < result.size(); ++row) result[row] = courses.at(row);
+  return result;
+}
+
+std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
+                              const std::vector<double>& times, const Noise& noise) {
+  const Courses courses(log, fingers, noise);
+  require_physical(log, courses, part, fingers, noise);
+  std::vector<Reading> result;
+  for (const std::size_t row : rows_at(log, times)) {
+    // A contact log needs no change of direction: the finger rolls on the part, however that was drawn.
+    const Reading reading = courses.at(row);
+    result.push_back(log.kind == LogKind::contact ? reading : in_stored_direction(reading, part));
+  }
+  return result;
+}
+
+double reach_of_corners(double place_rounding, const Noise& noise) {
+  constexpr double kSurelyOff = 5;  // standard deviations: one row in two million is on the other side
+  return std::max(2 * place_rounding, kSurelyOff * noise.contact);
+}
+
+std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger) {
+  const std::vector<double> u = unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped);
+  const std::vector<double> psi = unwrapped_as_said(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped);
+  std::vector<Contact> contacts;
+  for (std::size_t row = 0; row < u.size(); ++row) contacts.push_back({u[row], psi[row]});
+  return contacts;
+}
+
+std::vector<bool> rows_on_corners(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
+  std::vector<bool> on_corners;
+  for (std::size_t which = 0; which < log.fingers.size() && log.kind == LogKind::contact; ++which) {
+    const Finger* const finger = finger_of(fingers, which);
+    if (finger == nullptr || !finger->has_corners()) continue;
+    on_corners.resize(log.rows());
+    const std::vector<double>& u = log.fingers[which].u;  // wrapped or not
+    const double within = reach_of_corners(log.fingers[which].place_rounding, noise);
+    for (std::size_t row = 0; row < u.size(); ++row) {
+      on_corners[row] = on_corners[row] || finger->is_on_corner(u[row], within);
+    }
+  }
+  return on_corners;
+}
+
+Log from_row(Log log, std::size_t row) {
+  const auto cut = [&](auto& column) {
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(std::min(row, column.size())));
+  };
+  cut(log.time);
+  for (FingerRows& rows : log.fingers) {
+    for (auto* column : {&rows.u, &rows.psi, &rows.length, &rows.turn, &rows.x, &rows.y, &rows.distance, &rows.dturn}) {
+      cut(*column);
+    }
+    cut(rows.line);
+  }
+  return log;
+}
+
+std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers) {
+  if (log.fingers.size() != 2 || log.kind != LogKind::contact || log.rows() == 0) return std::nullopt;
+  const auto direction = [&](std::size_t which) {
+    const FingerRows& rows = log.fingers[which];
+    const Contact first{rows.u.front(), rows.psi.front()};
+    const Finger* const finger = finger_of(fingers, which);
+    return finger != nullptr ? facing(*finger, first) : first.facing();
+  };
+  return nearest_angle(direction(0) - direction(1));
+}
+
+Rounding rounding_of(const Log& log, const std::vector<Finger>& fingers) {
+  require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
+  Rounding sum;
+  for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+    const Rounding one = rounding_of(log, log.fingers[k], finger_of(fingers, k));
+    sum.length += one.length;
+    sum.turn += one.turn;
+  }
+  return sum;
+}
+
+}  // namespace rollfix

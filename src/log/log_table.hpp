@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rollfix/log.hpp"
+#include "rollfix/units.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+
+/// Goes through the lines of a text, or of a file through a buffer that does not grow with the file.
+class LogLines {
+ public:
+  /// `name` is what messages call it. The text, or the file, must stay. `first`: what was read of the file already.
+  /// Throws InputError when it is not plain text.
+  LogLines(std::string_view text, std::string name);
+  LogLines(std::FILE* file, std::string name, const std::string& first = "");
+  LogLines(const LogLines&) = delete;
+  LogLines& operator=(const LogLines&) = delete;
+
+  /// The next line without its end, good until the next call; false behind the last. Throws InputError: can't be read.
+  bool next(std::string_view& line);
+
+  const std::string& name() const { return name_; }
+
+ private:
+  bool refill();
+
+  std::string name_;
+  std::FILE* file_ = nullptr;  // none: a text
+  std::string buffer_;         // a piece of the file
+  const char* cursor_ = nullptr;
+  const char* end_ = nullptr;
+};
+
+/// Takes the byte order mark off the beginning of a log. Throws InputError when it does not begin like plain text.
+std::string_view plain_beginning(std::string_view text, const std::string& name);
+
+/// The text of a table: one row per line, `#` comments and blank lines left out.
+struct TableRow {
+  std::size_t line = 0;                 // number in the file, from 1
+  std::string_view text;                // as it stands there, for messages
+  std::vector<std::string_view> cells;  // without blanks and quotes around them
+};
+
+/// Cuts the lines of a comma, semicolon, tab or blank separated table into cells: the first row shows which it is.
+class TableCutter {
+ public:
+  /// `decimal_comma`: as in the options of a log.
+  explicit TableCutter(std::optional<bool> decimal_comma) : decimal_comma_(decimal_comma) {}
+
+  /// Makes a row of the line, false where there is none in it. The row refers to the line, or to what this holds until
+  /// the next one.
+  bool cut(std::string_view line, std::size_t number, TableRow& row);
+
+  /// The next row shows anew what separates.
+  void forget() { separator_ = '\0'; }
+
+ private:
+  void split(std::string_view data, std::vector<std::string_view>& cells) const;
+
+  std::optional<bool> decimal_comma_;
+  char separator_ = '\0';    // not known yet
+  std::string with_points_;  // of a row with decimal commas
+};
+
+/// "run.csv:12", for messages.
+std::string where(const std::string& name, std::size_t line);
+
+/// The columns that a finger's log may have.
+enum class Column : std::size_t { time, u, psi, x, y, contact, length, turn, distance, dturn };
+inline constexpr std::size_t kColumnCount = 10;
+inline constexpr std::array<const char*, kColumnCount> kColumnNames = {
+    "time", "u", "psi", "x", "y", "contact", "length", "turn", "distance", "dturn"};
+
+/// What stands behind the names of two fingers' columns: u_a, u_b. The time is common to both.
+inline constexpr std::array<const char*, 2> kFingerSuffixes = {"_a", "_b"};
+
+inline const char* name_of(Column column) { return kColumnNames[static_cast<std::size_t>(column)]; }
+inline bool is_angle(Column column) {
+  return column == Column::u || column == Column::psi || column == Column::turn || column == Column::dturn;
+}
+
+/// The columns that say how far a finger has rolled and how it is turned, by LogKind.
+struct ColumnPair {
+  Column place;
+  Column angle;
+};
+inline constexpr std::array<ColumnPair, 3> kColumnPairs = {
+    {{Column::u, Column::psi}, {Column::length, Column::turn}, {Column::distance, Column::dturn}}};
+
+/// Which cell of a row holds which column of one finger.
+struct Columns {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  std::array<std::size_t, kColumnCount> cell;       // kNone: the log does not have it
+  std::array<Conversion, kColumnCount> conversion;  // of its numbers to radians, seconds, the part's unit
+  std::array<ColumnSource, kColumnCount> source{};  // as the header has it; without a header names are empty
+  std::size_t count = 0;                            // cells of a row
+  LogKind kind = LogKind::contact;
+  bool of_pin = false;                     // of a wheel without skin: x and y, and psi where it has an encoder
+  std::string suffix;                      // of the finger's columns
+  bool contact_is_shared = false;          // one column `contact` for both fingers
+  std::optional<Dimension> u_dimension{};  // where the log says what u is in
+  std::optional<bool> u_wrapped{};         // where somebody said whether it jumps back after a full turn
+  std::optional<bool> psi_wrapped{};       // the same of psi
+  std::string note{};                      // what else the header has that may have been meant
+
+  Columns() { cell.fill(kNone); }
+  bool has(Column column) const { return (*this)[column] != kNone; }
+  std::size_t operator[](Column column) const { return cell[static_cast<std::size_t>(column)]; }
+  const Conversion& conversion_of(Column column) const { return conversion[static_cast<std::size_t>(column)]; }
+  /// The column's name in the header.
+  std::string called(Column column) const {
+    const bool is_common = column == Column::time || (column == Column::contact && contact_is_shared);
+    return is_common ? name_of(column) : name_of(column) + suffix;
+  }
+};
+
+/// Whether the row consists of numbers only: a log without a header.
+bool is_data(const TableRow& row);
+
+}  // namespace rollfix

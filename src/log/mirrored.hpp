@@ -1,0 +1,22 @@
+#pragma once
+
+#include "rollfix/finger.hpp"
+#include "rollfix/log.hpp"
+
+// A finger as a mirror shows it, and what it feels.
+namespace rollfix {
+
+/// The finger with its frame's y axis the other way: a disk is what it was. An outline is stored counter-clockwise
+/// again, and u of the same place is -u, of an open one its length less u. A jaw keeps its body above: of its frame the
+/// x axis is the other way.
+Finger mirrored(const Finger& finger);
+
+/// u of such a finger where that of `finger` itself is u, and its orientation in the mirror's image of the world, x
+/// with the other sign. `finger`: nullptr where it is not known.
+double mirrored_u(const Finger& finger, double u);
+double mirrored_psi(const Finger* finger, double psi);
+
+/// What such a finger feels of that image: u and psi as above; a length and a turn get the other sign.
+void mirror(FingerRows& rows, const Finger* finger);
+
+}  // namespace rollfix

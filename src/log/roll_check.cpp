@@ -1,0 +1,215 @@
+#include "log/roll_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "log/log_table.hpp"
+#include "outline/turn.hpp"
+#include "part/not_lost.hpp"
+#include "part/turning_range.hpp"
+
+namespace rollfix {
+
+namespace {
+
+constexpr double kSurely = 10;          // standard deviations that no error reaches
+constexpr double kSudden = 50;          // times the usual step
+constexpr std::size_t kLeastSteps = 8;  // before that nothing is usual
+constexpr double kSpareTurn = 1;        // radians, of rule 2
+constexpr double kAboutTurn = 0.25;     // radians, of rule 3: logs of a part that was made a little differently ...
+constexpr double kAboutLength = 0.25;   // ... and fingers whose radius is not quite what was said
+constexpr double kSpareLength = 1e-6;   // of the perimeter, of rule 1
+constexpr int kCells = 256;             // of the places where a stretch may start
+
+}  // namespace
+
+TurnRange::TurnRange(const Part& part) : part_(part) {
+  const double step = part.perimeter() / kCells;
+  for (int k = 0; k < kCells; ++k) {
+    const Interval s{k * step, (k + 1) * step};
+    cells_.push_back({s, angles_over(part.turning(), s)});
+  }
+  for (const Spiral& spiral : part.turning().spirals()) variation_ += std::abs(spiral.turn());
+  for (const Corner& corner : part.corners()) variation_ += std::abs(corner.turn);
+}
+
+Interval TurnRange::of(const Interval& lengths) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Interval result{kInfinity, -kInfinity};
+  for (const Cell& cell : cells_) {
+    const double from = cell.s.lo + lengths.lo;
+    if (!part_.closed() && from > part_.perimeter()) break;
+    const Interval there = angles_over(part_.turning(), {from, cell.s.hi + lengths.hi});
+    result = {std::min(result.lo, there.lo - cell.angle.hi), std::max(result.hi, there.hi - cell.angle.lo)};
+  }
+  return result;
+}
+
+RollCheck::RollCheck(const Part& part, LogKind kind, const std::vector<Finger>& fingers, std::size_t count,
+                     const Noise& noise)
+    : part_(part),
+      turns_(part),
+      fingers_(fingers),
+      noise_in_place_(kSurely * noise.contact),
+      error_(PerFinger<StepError>::of(count)),
+      recent_(PerFinger<std::array<double, kRecent>>::of(count)) {
+  for (const Finger& finger : fingers) {
+    if (kind != LogKind::contact || !finger.is_disk()) continue;
+    require_not_lost(part, finger.length_per_u(), "a disk with a radius", ": give it in the outline's unit");
+  }
+  for (std::size_t k = 0; k < count; ++k) error_[k] = error_of(kind, finger_of(fingers, k), noise);
+}
+
+RollCheck::StepError RollCheck::error_of(LogKind kind, const Finger* finger, const Noise& noise) {
+  const double both_rows = kind == LogKind::increments ? 1 : std::numbers::sqrt2;
+  StepError error{kSurely * both_rows * noise.contact, kSurely * both_rows * noise.angle, kSurely * noise.slip,
+                  kSurely * noise.gyro};
+  if (kind != LogKind::contact || finger == nullptr) return error;
+  // The contact's place says how its normal is turned.
+  error.turn += error.length * finger->turn_per_u() / finger->length_per_u();
+  if (finger->is_disk()) error.share += kSurely * noise.radius / finger->length_per_u();
+  return error;
+}
+
+std::optional<std::string> RollCheck::off_finger(std::size_t finger, double u, double rounding) const {
+  const Finger& shape = *finger_of(fingers_, finger);
+  const Interval ends = shape.ends();
+  const double seam = shape.outline() != nullptr ? kSpareLength * shape.outline()->perimeter() : 0;
+  const double slack = 2 * rounding + noise_in_place_ + seam;
+  if (u >= ends.lo - slack && u <= ends.hi + slack) return std::nullopt;
+  return fmt::format("u{} is {:.9g}, but the finger {} goes from {:g} to {:.9g} along its length",
+                     error_.size() == 1 ? "" : kFingerSuffixes[finger], u, shape.name(), ends.lo, ends.hi);
+}
+
+std::optional<RollCheck::Jump> RollCheck::jump(const PerFinger<std::size_t>& line, const PerFinger<Reading>& before,
+                                               const PerFinger<Reading>& now, const std::optional<double>& time) {
+  const std::size_t count = error_.size();
+  PerFinger<Step> steps = PerFinger<Step>::of(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    // On a finger's corner: the least turn that it leaves possible.
+    const double turn = now[k].turn - before[k].turn;
+    const double open = now[k].pivot + before[k].pivot;
+    const double least = open > 0 ? std::copysign(std::max(0.0, std::abs(turn) - open), turn) : turn;
+    steps[k] = {now[k].length[0] - before[k].length[0], least, line_[k]};
+  }
+  const double duration = time && time_ ? *time - *time_ : 1;
+  const bool is_first = !has_row_;
+  const bool may_be_far = may_be_far_;
+  time_before_ = std::exchange(time_, time);
+  line_before_ = std::exchange(line_, line);
+  has_row_ = true;
+  may_be_far_ = false;
+  if (is_first) return std::nullopt;
+  if (auto why = impossible(steps)) return why;
+  if (may_be_far) return std::nullopt;
+
+  PerFinger<double> speed = PerFinger<double>::of(count);
+  std::optional<std::size_t> sudden;
+  for (std::size_t k = 0; k < count; ++k) {
+    // In laps and turns, so that neither a pivot nor a straight side counts as rest.
+    const double laps = steps[k].length / part_.perimeter();
+    const double size = 2 * std::numbers::pi * std::abs(laps) + std::abs(steps[k].turn);
+    const double noise = 2 * std::numbers::pi * error_[k].length / part_.perimeter() + error_[k].turn;
+    speed[k] = size / duration;
+    if (!sudden && size > noise && is_sudden(k, speed[k])) sudden = k;
+  }
+  if (sudden && !is_explained(steps)) {
+    return Jump{
+        *sudden,
+        text(*sudden, steps[*sudden]) +
+            fmt::format(", more than {:g} times what is usual here, and no stretch of the part is like that", kSudden)};
+  }
+  for (std::size_t k = 0; k < count; ++k) recent_[k][steps_ % kRecent] = speed[k];
+  ++steps_;
+  return std::nullopt;
+}
+
+void RollCheck::disregard() {
+  time_ = time_before_;
+  line_ = line_before_;
+}
+
+/// "the length changes by ... since line 3", "the length of finger b ...".
+std::string RollCheck::text(std::size_t finger, const Step& step) const {
+  const char* const whose = error_.size() == 1 ? "" : finger == 0 ? " of finger a" : " of finger b";
+  return fmt::format("the length{0} changes by {1:.6g} and the turn{0} by {2:.6g} deg since line {3}", whose,
+                     step.length, step.turn / kDegree, step.line_before);
+}
+
+/// Rules 1 and 2.
+std::optional<RollCheck::Jump> RollCheck::impossible(const PerFinger<Step>& steps) const {
+  const double perimeter = part_.perimeter();
+  double most = 0;
+  std::size_t largest = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const double length = std::abs(steps[k].length) / (1 + error_[k].share);
+    if (!part_.closed() && length > (1 + kSpareLength) * perimeter + error_[k].length) {
+      return Jump{k, text(k, steps[k]) + fmt::format(", but the open outline is only {:.6g} long", perimeter)};
+    }
+    most += most_turn(k, length);
+    if (std::abs(steps[k].turn) > std::abs(steps[largest].turn)) largest = k;
+  }
+  // What the part turned by both fingers see alike.
+  const double turn = steps.size() == 1 ? steps[0].turn : steps[0].turn - steps[1].turn;
+  if (!(std::abs(turn) > most)) return std::nullopt;
+  if (steps.size() == 1) {
+    return Jump{0, text(0, steps[0]) +
+                       fmt::format(", but the part turns by at most {:.6g} deg over such a length", most / kDegree)};
+  }
+  return Jump{
+      largest,
+      text(largest, steps[largest]) +
+          fmt::format(
+              ", that of the other finger by {:.6g} deg, but the part turns by at most {:.6g} deg over both lengths",
+              steps[1 - largest].turn / kDegree, most / kDegree)};
+}
+
+/// Over such a length, by rule 2.
+double RollCheck::most_turn(std::size_t finger, double length) const {
+  const double laps = 1 + std::floor(length / part_.perimeter());
+  return (1 + error_[finger].turn_share) * laps * std::max(turns_.variation(), 2 * std::numbers::pi) + kSpareTurn +
+         error_[finger].turn;
+}
+
+/// Whether most of the finger's recent steps were far smaller.
+bool RollCheck::is_sudden(std::size_t finger, double size) const {
+  if (steps_ < kLeastSteps) return false;
+  const std::size_t count = std::min(steps_, kRecent);
+  const auto first = recent_[finger].begin();
+  const auto smaller = std::count_if(first, first + static_cast<std::ptrdiff_t>(count),
+                                     [&](double usual) { return kSudden * usual < size; });
+  return 2 * static_cast<std::size_t>(smaller) > count;
+}
+
+/// Whether the part has stretches of about these lengths that turn by about as much, if it turned itself by some angle:
+/// by none under one finger.
+bool RollCheck::is_explained(const PerFinger<Step>& steps) const {
+  const std::vector<Interval> of_a = part_turns(0, steps[0]);
+  const std::vector<Interval> others = steps.size() == 1 ? std::vector<Interval>{{0, 0}} : part_turns(1, steps[1]);
+  return std::any_of(of_a.begin(), of_a.end(), [&](const Interval& a) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const Interval& other) { return a.lo <= other.hi && other.lo <= a.hi; });
+  });
+}
+
+/// By how much the part may have turned so that this finger's step is one along it.
+std::vector<Interval> RollCheck::part_turns(std::size_t finger, const Step& step) const {
+  const StepError& error = error_[finger];
+  const double length = std::abs(step.length);
+  if (length > part_.perimeter() * (1 + error.share) + error.length) return {};
+  const double share = kAboutLength + error.share;
+  const Interval lengths{std::max(0.0, length / (1 + share) - error.length), length * (1 + share) + error.length};
+  const double slack = kAboutTurn + error.turn;
+  const Interval turns = turns_.of(lengths);
+  const Interval forwards{step.turn - (turns.hi + slack), step.turn - (turns.lo - slack)};
+  const Interval backwards{step.turn + (turns.lo - slack), step.turn + (turns.hi + slack)};
+  if (lengths.lo == 0) return {forwards, backwards};
+  return {step.length < 0 ? backwards : forwards};
+}
+
+}  // namespace rollfix

@@ -1,0 +1,193 @@
+#include "log/roll_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+
+LogOptions in_unit_of(const Part& part, LogOptions options) {
+  if (options.unit.empty()) options.unit = part.unit();
+  return options;
+}
+
+RollRows::OngoingRoll::OngoingRoll(const Columns& columns, const Finger* finger, bool is_later_roll)
+    : u(finger != nullptr ? finger->period() : 2 * std::numbers::pi, columns.u_wrapped),
+      psi(2 * std::numbers::pi, columns.psi_wrapped),
+      odometer(columns.kind, is_later_roll) {}
+
+RollRows::RollRows(const Part& part, std::vector<Finger> fingers, const Noise& noise, bool robust, bool any_part,
+                   const std::string& name)
+    : part_(part), fingers_(std::move(fingers)), noise_(noise), robust_(robust), any_part_(any_part) {
+  require_fingers(fingers_, 2, false, name);
+}
+
+void RollRows::start(const std::vector<Columns>& columns, const std::vector<std::string>& names) {
+  columns_ = columns;
+  names_ = names;
+  require_fingers(fingers_, with_skin(), kind() == LogKind::contact, names.front());
+  for (std::size_t k = 0; k < with_skin(); ++k) {
+    require_unit_of_u(columns[k].u_dimension, finger_of(fingers_, k), names[k]);
+  }
+  if (!check_) check_.emplace(part_, kind(), fingers_, with_skin(), noise_);
+}
+
+std::string RollRows::place_of(std::size_t finger, const PerFinger<std::size_t>& lines) const {
+  return where(names_[finger], lines[finger]);
+}
+
+void RollRows::begin_roll() {
+  rolls_.clear();
+  strays_ = 0;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    rolls_.emplace_back(columns_[k], finger_of(fingers_, k), is_later_roll_);
+  }
+  is_later_roll_ = true;
+  check_->restart();
+}
+
+void RollRows::require_on_finger(const LogRow& row, const PerFinger<std::size_t>& lines) const {
+  for (std::size_t k = 0; k < with_skin() && kind() == LogKind::contact; ++k) {
+    const WrittenValue& u = row.fingers[k].place;
+    const auto why = check_->off_finger(k, u.value, u.half_unit);
+    if (why) throw InputError(fmt::format("{}: {}", place_of(k, lines), *why));
+  }
+}
+
+Reading RollRows::measure_contact(const FingerCells& cells, std::size_t which, Sample& sample, Reading& before) {
+  OngoingRoll& roll = rolls_[which];
+  const Finger& finger = *finger_of(fingers_, which);
+  roll.rounding.place.add(cells.place);
+  roll.rounding.angle.add(cells.angle);
+  const Contact contact{roll.u.add(cells.place.value, roll.rounding.place.value()),
+                        roll.psi.add(cells.angle.value, roll.rounding.angle.value())};
+  if (!roll.has_first) roll.first = contact;
+  roll.has_first = true;
+  (*sample.contact)[which] = contact;
+  const double within = reach_of_corners(roll.rounding.place.value(), noise_);
+  const bool is_on_corner = finger.has_corners() && finger.is_on_corner(contact.u, within);
+  sample.finger_curvature[which] = is_on_corner ? std::numeric_limits<double>::infinity() : finger.curvature(contact.u);
+  before = reading_between(finger, roll.first, {roll.u.before(), roll.psi.before()}, within);
+  return reading_between(finger, roll.first, contact, within);
+}
+
+/// A wheel's contact is not known, and without an encoder neither is how it is turned.
+void RollRows::add_pin(const FingerCells& cells, std::size_t which, Sample& sample) {
+  OngoingRoll& roll = rolls_[which];
+  roll.rounding.angle.add(cells.angle);
+  const bool has_encoder = columns_[which].has(Column::psi);
+  (*sample.contact)[which] = {0, has_encoder ? roll.psi.add(cells.angle.value, roll.rounding.angle.value())
+                                             : std::numeric_limits<double>::quiet_NaN()};
+}
+
+RollRows::Steps RollRows::measure(const LogRow& row, Sample& sample) {
+  Steps steps{PerFinger<Reading>::of(with_skin()), PerFinger<Reading>::of(with_skin())};
+  for (std::size_t k = 0; k < with_skin(); ++k) {
+    steps.before[k] = rolls_[k].last;
+    steps.now[k] = kind() == LogKind::contact ? measure_contact(row.fingers[k], k, sample, steps.before[k])
+                                              : in_stored_direction(rolls_[k].odometer.add(row.fingers[k]), part_);
+    rolls_[k].last = steps.now[k];
+  }
+  for (std::size_t k = with_skin(); k < fingers(); ++k) add_pin(row.fingers[k], k, sample);
+  sample.reading = together(steps.now);
+  return steps;
+}
+
+/// Where rows so far apart don't show whether an angle is wrapped.
+std::optional<std::string> RollRows::unclear_angle(const PerFinger<std::size_t>& lines) const {
+  for (std::size_t k = 0; k < rolls_.size(); ++k) {
+    const OngoingRoll& roll = rolls_[k];
+    const bool is_u = roll.u.is_unclear(roll.rounding.place.value());
+    if (!is_u && !roll.psi.is_unclear(roll.rounding.angle.value())) continue;
+    return fmt::format(
+        "{}: whether {} is wrapped can't be told, because the rows are far apart: the roll begins anew; say it with "
+        "`wrapped` no, or `wrapped` yes",
+        place_of(k, lines), name_of(is_u ? Column::u : Column::psi));
+  }
+  return std::nullopt;
+}
+
+/// All of it but what is measured.
+Sample RollRows::sample_of(const LogRow& row, const PerFinger<std::size_t>& lines) const {
+  Sample sample;
+  sample.line = lines[0];
+  sample.time = row.time;
+  sample.finger_curvature = PerFinger<double>::of(fingers());
+  if (kind() == LogKind::contact) sample.contact = PerFinger<Contact>::of(fingers());
+  bool has_centre = true;
+  for (const Columns& columns : columns_) has_centre = has_centre && columns.has(Column::x);
+  if (has_centre) sample.centre = PerFinger<Vec2>::of(fingers(), Vec2::Zero());
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    const Finger* const finger = k < with_skin() ? finger_of(fingers_, k) : nullptr;
+    if (finger != nullptr && finger->is_disk()) sample.finger_curvature[k] = finger->curvature(0);
+    if (sample.centre) (*sample.centre)[k] = Vec2(row.fingers[k].x, row.fingers[k].y);
+  }
+  return sample;
+}
+
+LogLine RollRows::off() {
+  LogLine result;
+  if (!rolls_.empty()) result.kind = LineKind::lost;
+  rolls_.clear();
+  return result;
+}
+
+LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
+  LogLine result;
+  Sample& sample = result.sample;
+  sample = sample_of(row, lines);
+  result.kind = rolls_.empty() ? LineKind::first : LineKind::sample;
+  if (rolls_.empty()) begin_roll();
+  const std::vector<OngoingRoll> as_it_was = robust_ ? rolls_ : std::vector<OngoingRoll>{};
+  Steps steps = measure(row, sample);
+  // Beside a wheel one finger's steps alone can be any: the part turns as it likes.
+  const bool can_jump = with_skin() == fingers() && !any_part_;
+  if (kind() == LogKind::contact) {
+    if (const auto why = unclear_angle(lines)) {
+      result.kind = LineKind::jump;
+      result.message = *why;
+      begin_roll();
+      steps = measure(row, sample);
+      if (can_jump) check_->jump(lines, steps.before, steps.now, row.time);  // the next row is compared with this one
+      return result;
+    }
+  }
+  if (!can_jump) return result;
+  const auto jump = check_->jump(lines, steps.before, steps.now, row.time);
+  if (jump && robust_ && strays_ < kMostStrays) {
+    ++strays_;
+    rolls_ = as_it_was;
+    check_->disregard();
+    result.kind = LineKind::stray;
+    result.message = fmt::format("{}: a stray row: {}", place_of(jump->finger, lines), jump->why);
+    return result;
+  }
+  strays_ = 0;
+  if (jump) {
+    result.kind = LineKind::jump;
+    result.message =
+        fmt::format("{}: expected a roll that goes on, found a jump: {}", place_of(jump->finger, lines), jump->why);
+    begin_roll();
+    steps = measure(row, sample);
+    check_->jump(lines, steps.before, steps.now, row.time);  // the next row is compared with this one
+  }
+  return result;
+}
+
+void RollRows::skip() {
+  if (check_) check_->skip();
+}
+
+void RollRows::restart() {
+  rolls_.clear();
+  columns_.clear();
+  check_.reset();
+  is_later_roll_ = false;
+  strays_ = 0;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "log/log_rows.hpp"
+#include "log/roll_check.hpp"
+#include "rollfix/log.hpp"
+
+namespace rollfix {
+
+/// What the rows of growing rolls come to, one after the other, of one finger or of two, or of one beside the pin of a
+/// wheel: each is judged, and measured from the first contacts of its roll. Knows no lines of text.
+class RollRows {
+ public:
+  /// `any_part`: see LogOptions. `name`: for messages. Throws InputError: fingers that are not valid, more than two.
+  RollRows(const Part& part, std::vector<Finger> fingers, const Noise& noise, bool robust, bool any_part,
+           const std::string& name);
+
+  /// What the rows have, of each finger, and what their logs are called. Throws InputError: u and psi without a finger,
+  /// fingers of another number.
+  void start(const std::vector<Columns>& columns, const std::vector<std::string>& names);
+  bool has_started() const { return check_.has_value(); }
+  std::size_t fingers() const { return columns_.size(); }  // a wheel without skin included
+  LogKind kind() const { return columns_.front().kind; }
+
+  /// Throws InputError: u is beyond an open finger's end. REQUIRES has_started().
+  void require_on_finger(const LogRow& row, const PerFinger<std::size_t>& lines) const;
+  /// A row in which not every finger touches.
+  LogLine off();
+  /// A row in which all do. REQUIRES has_started().
+  LogLine take(const LogRow& row, const PerFinger<std::size_t>& lines);
+  /// Rows may be missing before the next one.
+  void skip();
+  /// The next row begins a roll, of another log: as if there had been none.
+  void restart();
+
+ private:
+  /// What a finger's roll is measured by while it lasts.
+  struct OngoingRoll {
+    OngoingRoll(const Columns& columns, const Finger* finger, bool is_later_roll);
+
+    bool has_first = false;
+    Contact first;  // of u and psi
+    GrowingAngle u;
+    GrowingAngle psi;
+    FingerRounding rounding;
+    Odometer odometer;  // of everything else
+    Reading last;
+  };
+
+  /// The reading of each finger with skin of a row, and what the row before it says by now.
+  struct Steps {
+    PerFinger<Reading> before;
+    PerFinger<Reading> now;
+  };
+
+  void begin_roll();
+  std::optional<std::string> unclear_angle(const PerFinger<std::size_t>& lines) const;
+  Sample sample_of(const LogRow& row, const PerFinger<std::size_t>& lines) const;
+  Steps measure(const LogRow& row, Sample& sample);
+  Reading measure_contact(const FingerCells& cells, std::size_t which, Sample& sample, Reading& before);
+  void add_pin(const FingerCells& cells, std::size_t which, Sample& sample);
+  std::size_t with_skin() const { return columns_.size() - (columns_.back().of_pin ? 1 : 0); }
+  std::string place_of(std::size_t finger, const PerFinger<std::size_t>& lines) const;
+
+  Part part_;
+  std::vector<Finger> fingers_;
+  Noise noise_;
+  bool robust_;
+  bool any_part_;
+  std::vector<Columns> columns_;  // of each finger
+  std::vector<std::string> names_;
+  std::optional<RollCheck> check_;  // none before the columns are known
+  std::vector<OngoingRoll> rolls_;  // of each finger; none while there is no contact
+  bool is_later_roll_ = false;
+  std::size_t strays_ = 0;  // since the last row of the roll
+};
+
+/// Lengths of a stream come out in the part's unit, unless another is asked for.
+LogOptions in_unit_of(const Part& part, LogOptions options);
+
+}  // namespace rollfix

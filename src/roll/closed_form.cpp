@@ -1,0 +1,52 @@
+#include "roll/motion.hpp"
+
+#include <cstddef>
+#include <vector>
+
+#include "roll/walk.hpp"
+
+// Notation:
+//   s, Theta        contact on the part, and the tangent's angle there: `s`, `angle`
+//   omega           the finger's angular velocity; its integral from the start on: `rotations_of`
+//   psi             how far the finger has turned: `Track::rotation`, of a disk Theta + s / r
+//   L, theta        s - s0 and Theta - Theta0: the reading, from which u and psi follow (`contact_after`)
+//   fallen          over the tiny concave joints of a drawing the finger turns back: by so much psi is behind,
+//                   `Walk::fallen_`
+// Follows eqs. (1) and (2) of the paper (Jia, IROS 2001), integrated once: (1/r + kappa) ds = omega d tau makes Theta +
+// s / r the integral of omega, eq. (3). Measured are L and theta, eqs. (4) and (5).
+// At corners psi grows where s stays: at the part's Theta turns, at the finger's own N does.
+// Idea: psi grows along the track, so that the contact at each time is found by solving psi(s) = rotation on one
+// stretch, by Newton's method, instead of by steps of a differential equation.
+namespace rollfix {
+
+namespace {
+
+/// How far the finger has turned at each of the times: the integral of omega in eq. (3).
+std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
+  if (motion.omega) return integrals(motion.omega, times);
+  std::vector<double> rotations(times.size());
+  for (std::size_t k = 0; k < times.size(); ++k) rotations[k] = motion.velocity * times[k];
+  return rotations;
+}
+
+}  // namespace
+
+std::vector<RollState> states_of(const Track& track, const Motion& motion, const std::vector<double>& times) {
+  const double s0 = motion.start.s;
+  const double rotation0 = track.rotation(track.stretch(motion.start.index), s0, motion.start_angle);
+  std::vector<RollState> states;
+  states.reserve(times.size());
+  Walk walk(track, motion.start.index);
+  for (const double rotation : rotations_of(motion, times)) {
+    const Walked at = walk.to(rotation0 + rotation);
+    if (track.finger().has_corners()) {  // on them u does not tell psi
+      states.push_back({{motion.first.u - (at.s - s0), motion.first.psi + rotation}, at.s, at.angle});
+      continue;
+    }
+    const Reading reading{at.s - s0, at.angle - motion.start_angle};  // eqs. (4) and (5)
+    states.push_back({contact_after(track.finger(), motion.first, reading), at.s, at.angle});
+  }
+  return states;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "roll/track.hpp"
+#include "rollfix/rolling.hpp"
+
+namespace rollfix {
+
+/// A plan made definite for one part: where it starts, and how the finger turns over time.
+struct Motion {
+  TrackPlace start;
+  double start_angle = 0;               // of the tangent
+  Contact first;                        // what the sensors say there
+  double duration = 0;                  // seconds
+  double velocity = 0;                  // rad/s, where it is constant
+  std::function<double(double)> omega;  // where it is not
+
+  double omega_at(double time) const { return omega ? omega(time) : velocity; }
+};
+
+/// Throws InputError: a plan that contradicts itself or that the finger can't follow.
+Motion plan_motion(const Track& track, const RollPlan& plan);
+
+/// Equal times from 0 to the end.
+std::vector<double> times_of(const Motion& motion, std::size_t rows);
+
+/// The integral of a rate from the first of these times to each.
+std::vector<double> integrals(const std::function<double(double)>& rate, const std::vector<double>& times);
+
+/// One instant of a roll.
+struct RollState {
+  Contact contact;
+  double s = 0;
+  double angle = 0;  // of the tangent
+};
+
+/// The roll at these times, in closed form.
+std::vector<RollState> states_of(const Track& track, const Motion& motion, const std::vector<double>& times);
+
+/// What the sensors say of a plan whose states are found so.
+using Solve = decltype(&states_of);
+Roll roll_with(Solve solve, const Part& part, const Finger& finger, const RollPlan& plan);
+Roll roll_with(Solve solve, const Part& part, const FreePlan& plan);
+
+}  // namespace rollfix

@@ -1,0 +1,308 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "log/log_rows.hpp"
+#include "part/not_lost.hpp"
+#include "roll/normal_numbers.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/rolling.hpp"
+
+namespace rollfix {
+
+namespace {
+
+double draw_slip(const Noise& noise, NormalNumbers& normal) {
+  const double slip = normal.next(noise.slip);
+  if (slip > -1) return slip;
+  throw InputError(fmt::format("expected a slip that leaves some roll, found {:.6g}; take less noise", slip));
+}
+
+RollError draw_error(const Finger& finger, const Noise& noise, NormalNumbers& normal) {
+  RollError error;
+  error.slip = draw_slip(noise, normal);
+  if (noise.radius == 0) return error;
+  if (!finger.is_disk()) {
+    throw InputError(fmt::format("expected a disk for a noise of the radius, found the finger {}; leave the radius out",
+                                 finger.name()));
+  }
+  error.radius = normal.next(noise.radius);
+  return error;
+}
+
+/// The finger as it really is. That its radius has come out below 0 the roll will say.
+Finger true_finger(const Finger& finger, const RollError& error) {
+  return finger.is_disk() ? Finger(DiskFinger{finger.length_per_u() + error.radius}) : finger;
+}
+
+struct Enlarged {
+  Interval domain() const { return curve.domain(); }
+  Jet jet(double u) const {
+    Jet jet = curve.jet(u);
+    for (Vec2* vector : {&jet.position, &jet.first, &jet.second, &jet.third}) *vector *= factor;
+    return jet;
+  }
+  Curve curve;
+  double factor;
+};
+
+/// A finger that slips rolls like one that is so much larger and does not.
+Finger enlarged(const Finger& finger, double factor) {
+  Outline outline = finger.outline()->outline();
+  for (Curve& curve : outline.curves) curve = Enlarged{curve, factor};
+  outline.gallery.clear();
+  return Finger::outlined(outline);
+}
+
+/// The roll of a finger with corners: what slips before a corner leaves the part elsewhere when the finger pivots.
+Roll slipping_roll(const Part& part, const Finger& finger, RollPlan plan, double slip) {
+  if (slip == 0) return roll(part, finger, plan);
+  const double factor = 1 + slip;
+  const Interval ends = finger.ends();
+  plan.u = factor * plan.u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);
+  Roll result = roll(part, enlarged(finger, factor), plan);
+  FingerRows& rows = result.log.fingers[0];
+  for (std::size_t row = 0; row < rows.u.size(); ++row) {
+    rows.u[row] /= factor;
+    const Vec2 centre = centre_of(finger, part.point(result.s[0][row]), {rows.u[row], rows.psi[row]});
+    rows.x[row] = centre.x();
+    rows.y[row] = centre.y();
+  }
+  rows.u_period = finger.period();
+  return result;
+}
+
+/// What slips leaves the part where it is, and how the normals lie: the finger is rolled off by less, and turned.
+void let_slip(FingerRows& rows, const Finger& finger, double slip) {
+  for (std::size_t row = 0; row < rows.u.size(); ++row) {
+    const Contact before{rows.u[row], rows.psi[row]};
+    const double u = rows.u.front() + (before.u - rows.u.front()) / (1 + slip);
+    const Contact after{u, before.psi + (finger.normal(before.u) - finger.normal(u))};
+    const Vec2 moved = centre_of(finger, Vec2::Zero(), after) - centre_of(finger, Vec2::Zero(), before);
+    rows.u[row] = after.u;
+    rows.psi[row] = after.psi;
+    rows.x[row] += moved.x();
+    rows.y[row] += moved.y();
+  }
+}
+
+/// A gyroscope that tells psi has a scale of its own.
+void let_scale(FingerRows& rows, double scale) {
+  const double first = rows.psi.front();
+  for (double& psi : rows.psi) psi += scale * (psi - first);
+}
+
+/// It drifts with time.
+void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& noise, NormalNumbers& normal) {
+  if (noise.drift == 0 && noise.walk == 0) return;
+  const double bias = normal.next(noise.drift);
+  double walked = 0;
+  for (std::size_t row = 1; row < rows.psi.size(); ++row) {
+    walked += normal.next(noise.walk * std::sqrt(time[row] - time[row - 1]));
+    rows.psi[row] += bias * (time[row] - time.front()) + walked;
+  }
+}
+
+void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, NormalNumbers& normal) {
+  for (std::size_t row = 0; row < rows.u.size(); ++row) {
+    rows.u[row] += normal.next(noise.contact) / finger.length_per_u();
+    rows.psi[row] += normal.next(noise.angle);
+  }
+}
+
+/// What the sensors say of this roll of the true fingers.
+void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise& noise, NormalNumbers& normal) {
+  roll.log = roll.truth.log;
+  for (std::size_t k = 0; k < fingers.size(); ++k) {
+    FingerRows& rows = roll.log.fingers[k];
+    if (roll.error[k].slip != 0 && !fingers[k].has_corners()) let_slip(rows, fingers[k], roll.error[k].slip);
+    add_noise(rows, fingers[k], noise, normal);
+    require_times(noise, !roll.log.time.empty(), roll.log.name);
+    if (noise.gyro > 0) let_scale(rows, normal.next(noise.gyro));
+    let_drift(rows, roll.log.time, noise, normal);
+    require_readable(rows, roll.log.name);
+  }
+}
+
+}  // namespace
+
+void require_valid(const Noise& noise) {
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    if (sd >= 0 && std::isfinite(sd)) continue;
+    throw InputError(fmt::format("{} noise of {}: expected finite standard deviations of at least 0", kind.name, sd));
+  }
+}
+
+double drift_variance(const Noise& noise, LogKind kind, double laps, const Interval& seconds) {
+  if (noise.drift > 0 || noise.walk > 0) {
+    // A bias turns by as much in every second: its variance grows with the square of the time.
+    return noise.walk * noise.walk * seconds.width() +
+           noise.drift * noise.drift * (seconds.hi * seconds.hi - seconds.lo * seconds.lo);
+  }
+  return kind == LogKind::travelled ? noise.angle * noise.angle * laps : 0;
+}
+
+namespace {
+
+/// What a kind of noise may be at most on such a part, and what that is.
+double most_of(const NoiseKind& kind, double perimeter) {
+  switch (kind.unit) {
+    case NoiseKind::Unit::length: {
+      const bool is_of_rows = kind.sd == &Noise::contact || kind.sd == &Noise::radius;
+      return (is_of_rows ? kMostLengthNoise : kMostPlaceNoise) * perimeter;
+    }
+    case NoiseKind::Unit::share:
+      return kMostSlip;
+    case NoiseKind::Unit::rate:
+    case NoiseKind::Unit::walk:
+      return kMostRate;
+    case NoiseKind::Unit::angle:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();  // of angles the belief has a bound of its own
+}
+
+void require_sensible(const Part& part, const Noise& noise) {
+  if (noise.position > 0) require_not_lost(part, noise.position, "a noise of the position", "");
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    const double most = most_of(kind, part.perimeter());
+    if (!(sd > most)) continue;
+    const bool is_length = kind.unit == NoiseKind::Unit::length;
+    throw InputError(fmt::format("noise: {} of {:.6g} says nothing on {}{}, expected at most {:.6g}{}", kind.name, sd,
+                                 part.name(), is_length ? fmt::format(", {:.6g} around", part.perimeter()) : "", most,
+                                 is_length ? ": give it in the outline's unit" : ""));
+  }
+}
+
+}  // namespace
+
+Noise noise_on(const Part& part, const Noise& sensors) {
+  require_sensible(part, sensors);
+  Noise noise = sensors;
+  noise.part = part.outline().accuracy;
+  return noise;
+}
+
+void require_times(const Noise& noise, bool has_times, const std::string& what) {
+  if (has_times || (noise.drift == 0 && noise.walk == 0)) return;
+  throw InputError(fmt::format(
+      "{}: has no times, and the noise's {} gathers with time: give a log with a column 'time', or leave {} out", what,
+      noise.drift > 0 ? "drift" : "walk", noise.drift > 0 && noise.walk > 0 ? "drift and walk" : "it"));
+}
+
+namespace {
+
+/// What there is of it for one of two fingers: that of the radius is of the disks among them.
+Noise noise_of(const Finger& finger, const Finger& other, const Noise& noise) {
+  Noise own = noise;
+  if (!finger.is_disk() && other.is_disk()) own.radius = 0;
+  return own;
+}
+
+}  // namespace
+
+NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
+                     std::uint64_t seed) {
+  require_valid(noise);
+  NormalNumbers normal(seed);
+  NoisyRoll result;
+  result.error[0] = draw_error(finger, noise, normal);
+  const Finger real = true_finger(finger, result.error[0]);
+  result.truth = real.has_corners() ? slipping_roll(part, real, plan, result.error[0].slip) : roll(part, real, plan);
+  let_sense(result, {real}, noise, normal);
+  return result;
+}
+
+NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& noise, std::uint64_t seed) {
+  require_valid(noise);
+  NormalNumbers normal(seed);
+  NoisyRoll result;
+  result.error = PerFinger<RollError>::of(2);
+  FreePlan real = plan;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Finger& finger = plan.fingers[k].finger;
+    result.error[k] = draw_error(finger, noise_of(finger, plan.fingers[1 - k].finger, noise), normal);
+    if (finger.has_corners() && result.error[k].slip != 0) {
+      throw InputError(
+          fmt::format("the finger {} has corners: two fingers' slip is not simulated with them; leave slip "
+                      "out, or take a finger with rounded corners",
+                      finger.name()));
+    }
+    real.fingers[k].finger = true_finger(finger, result.error[k]);
+  }
+  result.truth = roll_free(part, real);
+  let_sense(result, {real.fingers[0].finger, real.fingers[1].finger}, noise, normal);
+  return result;
+}
+
+NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noise, std::uint64_t seed) {
+  require_valid(noise);
+  NormalNumbers normal(seed);
+  NoisyRoll result;
+  const Finger wheel = disk(plan.radius);
+  result.error = {draw_error(jaw(), noise_of(jaw(), wheel, noise), normal), draw_error(wheel, noise, normal)};
+  RigPlan real = plan;
+  real.radius += result.error[1].radius;
+  result.truth = roll_rig(part, real);
+  let_sense(result, {jaw(), disk(real.radius)}, noise, normal);
+  FingerRows& pin = result.log.fingers[1];
+  for (std::size_t row = 0; row < pin.x.size(); ++row) {
+    pin.x[row] += normal.next(noise.position);
+    pin.y[row] += normal.next(noise.position);
+  }
+  return result;
+}
+
+NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
+                                 std::uint64_t seed, double seconds) {
+  require_valid(noise);
+  require_times(noise, seconds > 0, "the increments on " + part.name());
+  if (rows == 0) throw InputError("expected at least 1 row of a log, found 0");
+  if (!std::isfinite(start) || !std::isfinite(length)) {
+    throw InputError(fmt::format("expected a finite start and length of a roll, found {} and {}", start, length));
+  }
+  const double end = start + length;
+  if (!part.closed() && !(std::min(start, end) >= 0 && std::max(start, end) <= part.perimeter())) {
+    throw InputError(fmt::format("expected a roll that stays in 0 <= s <= {:.9g}, found one from {:.9g} to {:.9g}",
+                                 part.perimeter(), start, end));
+  }
+  NormalNumbers normal(seed);
+  NoisyIncrements result;
+  result.error.slip = draw_slip(noise, normal);
+  result.log.name = "the increments on " + part.name();
+  result.log.unit = part.unit();
+  result.log.kind = LogKind::increments;
+  const double scale = noise.gyro > 0 ? normal.next(noise.gyro) : 0;
+  const double bias = noise.drift > 0 ? normal.next(noise.drift) : 0;
+  result.turn_scale = 1 / (1 + scale);
+  result.turn_bias = bias;
+  const double interval = seconds > 0 ? seconds / static_cast<double>(rows) : 0;
+  Odometer odometer(LogKind::increments, false);  // adds up as a reader does
+  FingerRows& felt = result.log.fingers[0];
+  double angle = part.turning().angle(start);
+  for (std::size_t row = 1; row <= rows; ++row) {
+    const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
+    const double next = part.turning().angle(s);
+    Reading step;
+    step.length[0] = length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
+    step.turn = (1 + scale) * (next - angle) + bias * interval + normal.next(noise.angle);
+    if (noise.walk > 0) step.turn += normal.next(noise.walk * std::sqrt(interval));
+    if (seconds > 0) result.log.time.push_back(interval * static_cast<double>(row));
+    angle = next;
+    result.s.push_back(s);
+    // Along the outline as the user gave it, as everything that is not of u and psi.
+    step = in_stored_direction(step, part);
+    const Reading sum = odometer.add({{step.length[0], 0}, {step.turn, 0}});
+    felt.distance.push_back(step.length[0]);
+    felt.dturn.push_back(step.turn);
+    felt.length.push_back(sum.length[0]);
+    felt.turn.push_back(sum.turn);
+  }
+  return result;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,351 @@
+#include "rollfix/rolling.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "log/log_rows.hpp"
+#include "roll/rig_closure.hpp"
+#include "rollfix/error.hpp"
+
+// Idea: the pin's commanded place is two equations for how far both fingers have turned against the part (the closure,
+// rig_closure.cpp). Newton's method solves them anew in every row, so that the contacts never drift apart; their
+// derivatives only predict where it starts. What the last row was is followed in steps so short that the next solution
+// lies where the prediction says: a solution further off would be another way to hold the part.
+namespace rollfix {
+namespace {
+
+constexpr int kMostIterations = 40;
+// Of the part's size and the wheel's. Closed to less than the first, iterations that gain nothing any more are over;
+// never is a row taken that is not closed to the second.
+constexpr double kClosed = 1e-15;
+constexpr double kLeastClosed = 1e-12;
+// A solution is the same way to hold the part if it is no further from the prediction than this share of the step.
+constexpr double kNear = 0.25;
+// Both fingers may be over a tiny concave joint, and the one's moves the other.
+constexpr double kFalls = 8;
+// Rotations this small are rounding, radians.
+constexpr double kRigRounding = 1e-11;
+// Steps are halved down to this share of a row.
+constexpr double kShortest = 1e-10;
+// At the start, the margin as a share of the size: below it the pin's motion says nothing about the part's.
+constexpr double kLeastMargin = 1e-6;
+// A finger goes further than this, in sizes per radian, where it hardly fits: a reason to stop.
+constexpr double kHardlyFits = 100;
+// Of a squeezed rig: cosines this small between the wheel's normal and the jaw's are a reason to stop as well.
+constexpr double kAlongJaw = 1e-3;
+// A rig that stops with a larger margin than this, as a share of the size, does not stop because of it.
+constexpr double kMarginGone = 1e-4;
+// A joint lies ahead if so small a step, radians, changes what holds the part.
+constexpr double kAhead = 1e-6;
+// Contacts nearer to each other than this, as a share of the size, leave nothing between them.
+constexpr double kNothingBetween = 1e-6;
+// Of a squeezed rig's start: how far the wheel's normal may miss the jaw's contact, as a share of the size.
+constexpr double kOnNormal = 1e-9;
+
+void require_number(double value, const char* what) {
+  if (!std::isfinite(value)) throw InputError(fmt::format("expected a finite {} of a rig, found {}", what, value));
+}
+
+void require_consistent(const RigPlan& plan) {
+  if (plan.start.size() != 2) throw InputError("expected two starts of a rig, the jaw's and the wheel's, found one");
+  require_number(plan.start[0], "start of the jaw");
+  require_number(plan.start[1], "start of the wheel");
+  require_number(plan.u, "first contact on the jaw");
+  require_number(plan.psi, "orientation psi of the wheel at the start");
+  require_number(plan.pose.x + plan.pose.y + plan.pose.heading, "pose of the part at the start");
+  if (!(plan.duration > 0 && std::isfinite(plan.duration))) {
+    throw InputError(fmt::format("expected a duration of a rig's motion above 0, found {}", plan.duration));
+  }
+  if (!plan.pin) throw InputError("expected how the pin of a rig moves by time, found nothing");
+  if (plan.rows < 2) throw InputError(fmt::format("expected at least 2 rows of a log, found {}", plan.rows));
+  require_valid(disk(plan.radius));
+}
+
+/// The rig in motion.
+class Course {
+ public:
+  Course(const Part& part, const RigPlan& plan, const std::vector<double>& times)
+      : plan_(plan), times_(times), closure_(part, plan, first_displacement()), now_(closure_.first()) {
+    start_value_ = now_.value;
+    require_start(part);
+    sign_ = now_.margin < 0 ? -1 : 1;
+    fall_ = largest_fall();
+  }
+
+  const RigState& now() const { return now_; }
+  const RigClosure& closure() const { return closure_; }
+
+  /// On to the time of this row, in as many steps as it needs.
+  void go_to(std::size_t row) {
+    double from = times_[row - 1];
+    const double whole = times_[row] - from;
+    double step = whole;
+    while (from < times_[row]) {
+      const bool is_last = from + step >= times_[row];
+      const double to = is_last ? times_[row] : from + step;
+      if (const auto next = try_step(to)) {
+        refusal_.clear();
+        now_ = *next;
+        from = to;
+        step *= 2;
+        continue;
+      }
+      step = (to - from) / 2;
+      if (step < kShortest * whole) stop(row, from);
+    }
+  }
+
+ private:
+  /// How far the plan has the pin from its first place.
+  Vec2 displacement(double time) const {
+    Vec2 moved = plan_.pin(time) - plan_.pin(0);
+    if (plan_.squeezed) moved.y() = 0;
+    require_number(moved.x() + moved.y(), "motion of the pin");
+    return moved;
+  }
+
+  Vec2 first_displacement() const {
+    for (const double time : times_) {
+      Vec2 moved = displacement(time);
+      if (moved != Vec2::Zero()) return moved;
+    }
+    throw InputError(plan_.squeezed
+                         ? "expected a pin that moves along the jaw, found one that stays: nothing would roll"
+                         : "expected a pin that moves in the jaw's frame, found one that stays: nothing would roll");
+  }
+
+  Vec2 target(double time) const { return start_value_ + displacement(time); }
+
+  void require_start(const Part& part) {
+    const std::string where = places_text();
+    if (!plan_.squeezed) {
+      if (std::abs(now_.margin) > kLeastMargin * closure_.size()) return;
+      throw InputError(
+          fmt::format("{}: at the start the wheel's normal passes through the jaw's contact ({}): the pin's "
+                      "motion does not say how the part rolls; start the wheel elsewhere, or squeeze",
+                      part.name(), where));
+    }
+    if (std::abs(now_.value.y()) > kOnNormal * closure_.size()) {
+      throw InputError(
+          fmt::format("{}: expected a squeezed wheel whose normal passes through the jaw's contact, found "
+                      "one that passes by at {:.6g} ({}); squeezed_places finds where it does",
+                      part.name(), std::abs(now_.value.y()), where));
+    }
+    start_value_.y() = 0;
+    const bool is_opposite = std::cos(now_.wheel.angle - now_.jaw.angle) < 0 && now_.pin.y() < 0;
+    if (is_opposite && now_.margin > kLeastMargin * closure_.size()) return;
+    throw InputError(
+        fmt::format("{}: expected a stable grip, found one out of which the wheel's spring would turn the "
+                    "part ({}); start elsewhere, or take another wheel",
+                    part.name(), where));
+  }
+
+  std::string places_text() const {
+    const Boundary boundary = closure_.jaw().part().boundary();
+    return fmt::format("the jaw at s = {:.9g}, the wheel at {:.9g}", boundary.base(now_.jaw.s),
+                       boundary.base(now_.wheel.s));
+  }
+
+  /// How far a row may be from closed. Where a finger hardly fits, a rotation's own rounding is a long way along the
+  /// part, which matters to what is squeezed.
+  double closed_to(const RigState& state) const {
+    constexpr double kEpsilon = 8 * std::numeric_limits<double>::epsilon();
+    const Vec2 rounding = kEpsilon * (Vec2::Ones() + state.rotations.cwiseAbs());
+    const double off = plan_.squeezed ? rounding.dot(state.slope.row(1).cwiseAbs()) : 0;
+    return kLeastClosed * closure_.size() + std::min(off, kOnNormal * closure_.size());
+  }
+
+  /// Over the tiny concave joints of a drawing the contact goes on by as far as the finger would have turned back, as a
+  /// finger does that touches on both sides of one: so far from the prediction a solution may be, radians.
+  double largest_fall() const {
+    double most = 0;
+    for (const Corner& corner : closure_.jaw().part().corners()) {
+      if (corner.turn < 0 && !corner.is_concave()) most = std::max(most, -corner.turn);
+    }
+    return most;
+  }
+
+  /// The rig at this time if it can be followed there in one step.
+  std::optional<RigState> try_step(double to) {
+    const Vec2 wanted = target(to);
+    const Vec2 lead = now_.slope.inverse() * (wanted - now_.value);
+    const double reach = kNear * lead.norm() + kRigRounding + kFalls * fall_;
+    const Vec2 predicted = now_.rotations + lead;
+    Vec2 rotations = predicted;
+    double best = std::numeric_limits<double>::infinity();
+    std::optional<RigState> found;
+    for (int k = 0; k < kMostIterations; ++k) {
+      if (!((rotations - predicted).norm() <= reach)) return std::nullopt;
+      try {
+        const RigState state = closure_.at(rotations);
+        const double off = (state.value - wanted).norm();
+        if (!(off < best)) break;
+        best = off;
+        found = state;
+        if (off <= kClosed * closure_.size()) break;
+        rotations += state.slope.inverse() * (wanted - state.value);
+      } catch (const InputError& error) {
+        refusal_ = error.what();
+        return std::nullopt;
+      }
+    }
+    return found && best <= closed_to(*found) && found->margin * sign_ > 0 ? found : std::nullopt;
+  }
+
+  /// Which finger hardly fits where it is, if one does, or that no jaw could take the force.
+  std::string tightness_text() const {
+    const Part& part = closure_.jaw().part();
+    if ((part.point(now_.jaw.s) - part.point(now_.wheel.s)).norm() < kNothingBetween * closure_.size()) {
+      return ": both touch it at one and the same place, and nothing of it is left between them";
+    }
+    if (plan_.squeezed && std::abs(std::cos(now_.wheel.angle - now_.jaw.angle)) < kAlongJaw) {
+      return ": the wheel's force lies along the jaw, where no friction holds it";
+    }
+    if (now_.jaw.per_rotation > kHardlyFits * closure_.size()) {
+      return fmt::format(": under the jaw the part is nearly flat, its curvature only {:.3g}",
+                         1 / now_.jaw.per_rotation);
+    }
+    if (now_.wheel.per_rotation > kHardlyFits * closure_.size()) return ": the wheel hardly fits into the concavity";
+    return "";
+  }
+
+  /// Whether the margin is gone, or is a little further on: at a joint of the part it jumps.
+  bool is_margin_gone(std::size_t row) {
+    if (std::abs(now_.margin) <= kMarginGone * closure_.size()) return true;
+    const Vec2 lead = now_.slope.inverse() * (target(times_[row]) - now_.value);
+    try {
+      return closure_.at(now_.rotations + kAhead * lead.normalized()).margin * sign_ <= 0;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// Says why the rig can't go on.
+  [[noreturn]] void stop(std::size_t row, double time) {
+    const Vec2 moved = displacement(time);
+    const std::string possible = plan_.squeezed ? fmt::format("{:.6g} along the jaw", moved.x())
+                                                : fmt::format("({:.6g}, {:.6g})", moved.x(), moved.y());
+    const std::string head = fmt::format("row {} of the log, at {:.6g} s: ", row + 1, time);
+    const std::string cure = fmt::format("the pin can move by {}", possible);
+    const std::string tightness = tightness_text();
+    const bool is_gone = tightness.empty() && is_margin_gone(row);
+    if (!is_gone && !refusal_.empty()) throw InputError(head + refusal_ + "; " + cure);
+    if (!is_gone) {
+      throw InputError(
+          fmt::format("{}the rig can't be followed any further ({}){}; {}", head, places_text(), tightness, cure));
+    }
+    if (plan_.squeezed) {
+      throw InputError(
+          fmt::format("{}the grip is not stable any more ({}): the wheel's spring would turn the part out of "
+                      "it; {}, the other way perhaps further",
+                      head, places_text(), cure));
+    }
+    throw InputError(
+        fmt::format("{}the wheel's normal passes through the jaw's contact ({}): from there on the pin's "
+                    "motion does not say how the part rolls; {}; or start the wheel elsewhere, or squeeze",
+                    head, places_text(), cure));
+  }
+
+  const RigPlan& plan_;
+  const std::vector<double>& times_;
+  RigClosure closure_;
+  RigState now_;
+  Vec2 start_value_ = Vec2::Zero();
+  double sign_ = 1;
+  double fall_ = 0;
+  std::string refusal_;  // where a finger could not go there: why a step from here was impossible
+};
+
+/// Writes down what is in the world, row by row.
+class Recorder {
+ public:
+  Recorder(const Part& part, const RigPlan& plan, const RigState& first) : part_(part), plan_(plan), first_(first) {
+    const double tangent = first.jaw.angle + plan.pose.heading;
+    const Contact on_jaw = contact_at(jaw(), tangent, plan.u);
+    const Vec2 origin = centre_of(jaw(), plan.pose.world(part.point(first.jaw.s)), on_jaw);
+    jaw_ = {origin.x(), origin.y(), on_jaw.psi};
+    first_v_ = contact_on(first.wheel.angle + plan.pose.heading, plan.psi).u;
+    roll_.log.name = "the rig on " + part.name();
+    roll_.log.unit = part.unit();
+    roll_.log.fingers.resize(2);
+    roll_.s = roll_.angle = PerFinger<std::vector<double>>::of(2);
+    roll_.log.fingers[0].u_period = jaw().period();
+  }
+
+  void add(double time, const RigState& state) {
+    const Pose moved = plan_.jaw ? plan_.jaw(time) : Pose{};
+    const Pose jaw_pose{jaw_.x + moved.x, jaw_.y + moved.y, jaw_.heading + moved.heading};
+    Pose part{0, 0, plan_.pose.heading + moved.heading - (state.jaw.angle - first_.jaw.angle)};
+    const Vec2 origin = jaw_pose.world({state.u, 0}) - part.turned(part_.point(state.jaw.s));
+    part.x = origin.x();
+    part.y = origin.y();
+    const double v = first_v_ - (state.wheel.s - first_.wheel.s) / plan_.radius;
+    const double turned = state.wheel.angle - first_.wheel.angle + part.heading - plan_.pose.heading;
+    const Contact on_wheel{v, plan_.psi + turned - (v - first_v_)};
+    const Vec2 touched = part.world(part_.point(state.wheel.s));
+    const Vec2 pin = centre_of(disk(plan_.radius), touched, on_wheel);
+    roll_.log.time.push_back(time);
+    add_row(0, {state.u, jaw_pose.heading}, {jaw_pose.x, jaw_pose.y}, state.jaw);
+    add_row(1, on_wheel, pin, state.wheel);
+    roll_.pose.push_back(part);
+  }
+
+  Roll roll() {
+    for (const FingerRows& rows : roll_.log.fingers) require_readable(rows, roll_.log.name);
+    return std::move(roll_);
+  }
+
+ private:
+  void add_row(std::size_t finger, const Contact& contact, const Vec2& centre, const Walked& place) {
+    FingerRows& rows = roll_.log.fingers[finger];
+    rows.u.push_back(contact.u);
+    rows.psi.push_back(contact.psi);
+    rows.x.push_back(centre.x());
+    rows.y.push_back(centre.y());
+    roll_.s[finger].push_back(place.s);
+    roll_.angle[finger].push_back(place.angle);
+  }
+
+  const Part& part_;
+  const RigPlan& plan_;
+  RigState first_;
+  Pose jaw_;  // at the start
+  double first_v_ = 0;
+  Roll roll_;
+};
+
+}  // namespace
+
+Roll roll_rig(const Part& part, const RigPlan& plan) {
+  require_consistent(plan);
+  std::vector<double> times(plan.rows);
+  const auto last = static_cast<double>(plan.rows - 1);
+  for (std::size_t k = 0; k < plan.rows; ++k) times[k] = plan.duration * (static_cast<double>(k) / last);
+  Course course(part, plan, times);
+  Recorder recorder(part, plan, course.now());
+  recorder.add(0, course.now());
+  for (std::size_t row = 1; row < plan.rows; ++row) {
+    course.go_to(row);
+    recorder.add(times[row], course.now());
+  }
+  return recorder.roll();
+}
+
+Log sensed_by(WheelSensors sensors, Log log) {
+  if (log.fingers.size() != 2) throw InputError("expected the log of a rig, of two fingers, found one of one finger");
+  FingerRows& wheel = log.fingers[1];
+  if (sensors != WheelSensors::skin) wheel.u.clear();
+  if (sensors == WheelSensors::pin) wheel.psi.clear();
+  return log;
+}
+
+}  // namespace rollfix

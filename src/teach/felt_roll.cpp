@@ -1,0 +1,171 @@
+#include "teach/felt_roll.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "outline/turn.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+constexpr double kQuarter = std::numbers::pi / 2;
+/// No part turns further, radians: a thousand times round. What does is a mistake in units.
+constexpr double kMostTurn = 1000 * kFullTurn;
+
+std::vector<Finger> fingers_of(const TeachOptions& options) {
+  return options.finger ? std::vector<Finger>{*options.finger} : std::vector<Finger>{};
+}
+
+std::vector<Reading> readings_of(const Log& log, const TeachOptions& options) {
+  if (log.fingers.size() > 1) {
+    throw InputError(fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", log.name));
+  }
+  std::vector<Reading> readings = readings_as_given(log, fingers_of(options));
+  const bool has_first_contact = log.kind == LogKind::contact;
+  if (!has_first_contact) readings.insert(readings.begin(), Reading{0, 0});
+  return readings;
+}
+
+}  // namespace
+
+FeltRoll::FeltRoll(const Log& log, const TeachOptions& options)
+    : log_(log),
+      felt_(log.fingers[0]),
+      options_(options),
+      noise_(options.noise.value_or(Noise{})),
+      readings_(readings_of(log, options)) {
+  is_backwards_ = readings_.back().length[0] < 0;
+  if (is_backwards_) std::reverse(readings_.begin(), readings_.end());
+  require_valid(noise_);
+  require_times(noise_, !log.time.empty(), log.name);
+  rounding_ = rounding_of(log, fingers_of(options));
+  if (is_fingers()) {
+    if (!options.finger->is_disk())
+      refuse(fmt::format("expected a disk's log, and the finger is {}", options.finger->name()));
+    radius_ = options.finger->length_per_u();
+  }
+  find_runs();
+}
+
+void FeltRoll::refuse(const std::string& what) const { throw InputError(fmt::format("{}: {}", log_.name, what)); }
+
+TurningFit FeltRoll::how() const {
+  const double row = 2 * (felt_.angle_rounding + (log_.kind == LogKind::contact ? felt_.place_rounding : 0));
+  return {row + 2 * radius_ * felt_.place_rounding * bend() + kSamePlace, true};
+}
+
+RowErrors FeltRoll::errors() const {
+  const double normal = log_.kind == LogKind::contact ? 1 / radius_ : 0;
+  return {std::hypot(noise_.angle, noise_.contact * (bend() + normal)), log_.kind == LogKind::increments};
+}
+
+double FeltRoll::unsaid_noise() const {
+  constexpr std::size_t kLeastRows = 50;
+  // Noise of its own in each row turns a difference's sign from one to the next in four of five cases, and a smooth
+  // curve, however it bends, hardly ever.
+  constexpr double kLeastTurns = 0.65;
+  constexpr double kSdOfMedian = 1.4826;  // of a normal distribution, by the median of its sizes
+  if (options_.noise || readings_.size() < kLeastRows) return 0;
+  const bool is_summed = log_.kind == LogKind::increments;
+  std::vector<double> differences;
+  for (const Reading& reading : readings_) differences.push_back(reading.turn);
+  // The fourth differences, which hardly see a smooth curve; what is summed is differenced once already.
+  for (int k = 0; k < 4; ++k) {
+    std::adjacent_difference(differences.begin(), differences.end(), differences.begin());
+    differences.erase(differences.begin());
+  }
+  double turns = 0;
+  for (std::size_t k = 1; k < differences.size(); ++k) turns += differences[k] * differences[k - 1] < 0 ? 1 : 0;
+  if (turns < kLeastTurns * static_cast<double>(differences.size())) return 0;
+  for (double& one : differences) one = std::abs(one);
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  const double sd = kSdOfMedian * *middle / std::sqrt(is_summed ? 20.0 : 70.0);
+  return sd > how().tolerance ? sd : 0;
+}
+
+double FeltRoll::bend() const { return std::abs(readings_.back().turn - readings_.front().turn) / whole_.length(); }
+
+void FeltRoll::find_runs() {
+  const double rolled = readings_.back().length[0] - readings_.front().length[0];
+  if (!(rolled > 0) || !std::isfinite(rolled))
+    refuse(fmt::format("expected a roll around a part, found one of length {}", rolled));
+  for (const Reading& reading : readings_) {
+    if (std::abs(reading.turn) <= kMostTurn) continue;
+    refuse(fmt::format("expected a turn of at most 1000 times 360 deg, found {} rad; degrees are written 73deg",
+                       reading.turn));
+  }
+  const double same = std::max({2 * radius_ * felt_.place_rounding, kDeviations * noise_.contact, kSamePlace * rolled});
+  try {
+    whole_ = turning_runs(readings_, {same, options_.corner_angle});
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+  if (!(whole_.length() > 0)) refuse("expected a roll around a part, found all rows at one place");
+}
+
+double FeltRoll::drift_variance() const {
+  const auto rows = static_cast<double>(readings_.size());
+  const double seconds = log_.time.empty() ? 0 : log_.time.back() - log_.time.front();
+  const double gathered = log_.kind == LogKind::increments ? rows * errors().sd * errors().sd : 0;
+  const double by_scale = noise_.gyro * readings_.back().turn;
+  return gathered + by_scale * by_scale + rollfix::drift_variance(noise_, log_.kind, 1, {0, seconds});
+}
+
+double FeltRoll::drift_share(double rolled, double lap) const {
+  const bool by_time = (noise_.drift > 0 || noise_.walk > 0) && !log_.time.empty();
+  return by_time ? seconds_at(rolled) / seconds_at(lap) : rolled / lap;
+}
+
+double FeltRoll::seconds_at(double rolled) const {
+  const std::vector<Reading>& rows = readings_;
+  const double place = rows.front().length[0] + rolled;
+  const auto after = std::find_if(rows.begin() + 1, rows.end() - 1,
+                                  [&](const Reading& reading) { return reading.length[0] >= place; });
+  const auto k = static_cast<std::size_t>(after - rows.begin());
+  const double step = rows[k].length[0] - rows[k - 1].length[0];
+  const double share = step > 0 ? (place - rows[k - 1].length[0]) / step : 0;
+  return std::abs(time_of(k - 1) + share * (time_of(k) - time_of(k - 1)) - time_of(0));
+}
+
+double FeltRoll::time_of(std::size_t row) const {
+  const std::size_t count = readings_.size();
+  const std::size_t in_order = is_backwards_ ? count - 1 - row : row;
+  if (log_.kind == LogKind::contact) return log_.time[in_order];
+  // Before the first row there is the start, a usual step earlier.
+  const double step = (log_.time.back() - log_.time.front()) / static_cast<double>(std::max<std::size_t>(count, 3) - 2);
+  return in_order == 0 ? log_.time.front() - step : log_.time[in_order - 1];
+}
+
+Vec2 FeltRoll::start_point() const {
+  const bool knows = log_.kind == LogKind::contact && !felt_.x.empty() && !felt_.y.empty();
+  if (!knows) return Vec2::Zero();
+  const std::size_t row = is_backwards_ ? log_.rows() - 1 : 0;
+  const double facing = felt_.u[row] + felt_.psi[row];
+  return Vec2(felt_.x[row], felt_.y[row]) + radius_ * Vec2(std::cos(facing), std::sin(facing));
+}
+
+double FeltRoll::start_direction() const {
+  if (log_.kind != LogKind::contact) return 0;
+  const std::size_t row = is_backwards_ ? log_.rows() - 1 : 0;
+  return felt_.u[row] + felt_.psi[row] - kQuarter - readings_.front().turn;
+}
+
+TurningNodes fit_run(const FeltRoll& roll, const TurningRun& run, FitSums& sums) {
+  return roll.is_noisy() ? smooth(run, roll.errors(), sums) : fit(run, roll.how());
+}
+
+TurningCourse open_course(const FeltRoll& roll, const TurningRuns& runs, FitSums& sums) {
+  sums = {};
+  TurningCourse course;
+  for (const TurningRun& run : runs.runs) course.push_back(fit_run(roll, run, sums));
+  return course;
+}
+
+}  // namespace rollfix

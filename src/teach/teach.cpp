@@ -1,0 +1,306 @@
+#include "rollfix/teach.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "outline/turn.hpp"
+#include "rollfix/curve.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
+#include "teach/felt_roll.hpp"
+#include "teach/lap.hpp"
+#include "teach/round_course.hpp"
+#include "teach/teach_notes.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// Exact rows: what every other one is off the curve through the rest, less this factor, is what all are off between.
+constexpr double kInterpolated = 16;
+/// A smooth fit is off by its noise, and by what was too little to be seen in it: together by this factor.
+constexpr double kUnseen = 1.2;
+/// A turn that does not close makes a corner of the seam when it is as large as this, radians.
+constexpr double kLeastCorner = 0.1;
+/// Ends that are nearer together than this share of the lap have no gap between them.
+constexpr double kNoGap = 1e-6;
+/// What rounding alone leaves: of lengths a share, of turns radians.
+constexpr double kRounding = 1e-9;
+class Teacher {
+ public:
+  Teacher(const Log& log, const TeachOptions& options) : roll_(log, options), options_(options) {
+    taught_.rolled = roll_.whole().length();
+  }
+
+  Taught teach() {
+    find_drift();
+    lap_ = roll_.whole();
+    if (!options_.open) take_lap();
+    fit_lap();
+    if (options_.open) {
+      taught_.closing = Closing::not_asked;
+      draw_open();
+    } else if (options_.bridge) {
+      bridge();
+    } else {
+      close();
+    }
+    add_notes(roll_, taught_);
+    return std::move(taught_);
+  }
+
+ private:
+  /// What the noise and the rows' rounding and distance can have done over the whole roll.
+  void find_drift() {
+    whole_course_ = open_course(roll_, roll_.whole(), sums_);
+    const TurningPath path = path_of(whole_course_, Vec2::Zero());
+    size_ = path.size();
+    const double from_distance = roll_.is_noisy() ? 0 : leave_out_every_other(path);
+    const double row_variance = roll_.errors().sd * roll_.errors().sd;
+    const double turn_sd = std::sqrt(2 * row_variance + roll_.drift_variance());
+    const auto rows = static_cast<double>(roll_.rows());
+    const double contact = roll_.noise().contact * (roll_.log().kind == LogKind::increments ? std::sqrt(rows) : 1);
+    const double place_sd = std::hypot(std::hypot(contact, roll_.noise().slip * roll_.whole().length()),
+                                       std::sqrt(row_variance + roll_.drift_variance()) * size_);
+    // Between exact rows, as far as what is left out shows it.
+    taught_.turn_allowed = kDeviations * turn_sd + roll_.rounding().turn + kInterpolated * interpolated_ + kRounding;
+    taught_.gap_allowed = kDeviations * place_sd + roll_.rounding().length + roll_.rounding().turn * size_ +
+                          from_distance + kRounding * size_;
+  }
+
+  /// How far the end moves; and how far the rows left out are off the curve through the others.
+  double leave_out_every_other(const TurningPath& path) {
+    TurningCourse thin;
+    double off = 0;
+    for (const TurningRun& run : roll_.whole().runs) {
+      TurningRun every_other{run.lo, run.hi, {}, {}};
+      for (std::size_t k = 0; k < run.s.size(); ++k) {
+        if (k % 2 == 1 && k + 1 < run.s.size()) continue;
+        every_other.s.push_back(run.s[k]);
+        every_other.angle.push_back(run.angle[k]);
+      }
+      thin.push_back(fit(every_other, roll_.how()));
+      for (std::size_t k = 1; k < run.s.size(); k += 2) {
+        off = std::max(off, std::abs(thin.back().at(run.s[k]) - run.angle[k]));
+      }
+    }
+    interpolated_ = off / kInterpolated;
+    return (path_of(thin, Vec2::Zero()).point.back() - path.point.back()).norm();
+  }
+
+  /// The turn from the start, less the nearest multiple of 2 pi.
+  static double turn_gap(double turn) { return turn - kFullTurn * std::round(turn / kFullTurn); }
+
+  /// What the rows' own noise moves the end by: each turns all that follows of a step, but for what others average.
+  double gap_sd() const {
+    if (!roll_.is_noisy()) return 0;
+    const double step = roll_.whole().length() / static_cast<double>(roll_.rows());
+    const double rows = std::hypot(roll_.errors().sd * std::sqrt(step * roll_.whole().length()),
+                                   std::numbers::sqrt2 * roll_.noise().contact);
+    return std::hypot(rows, std::sqrt(roll_.drift_variance()) * size_);
+  }
+
+  void take_lap() {
+    const double row_sd = roll_.is_noisy() ? roll_.errors().sd : std::max(roll_.how().tolerance, interpolated_);
+    const RoundRoll round{
+        roll_.whole(),
+        whole_course_,
+        row_sd,
+        std::sqrt(roll_.drift_variance()),
+        taught_.turn_allowed,
+        options_.bridge ? kDeviations * gap_sd() + kNoGap * roll_.whole().length() : taught_.gap_allowed,
+        gap_sd(),
+        std::max(
+            {roll_.noise().contact, roll_.radius() * roll_.place_rounding(), kSamePlace * roll_.whole().length()})};
+    const Lap lap = find_lap(round).value_or(Lap{roll_.whole().length(), 0, 0, false});
+    goes_on_ = lap.goes_on;
+    lap_sd_ = lap.length_sd;
+    taught_.turns = lap.turns;
+    taught_.turn_gap = lap.turn_gap;
+    const double near_corner = std::max(taught_.gap_allowed / kDeviations, kDeviations * roll_.noise().contact);
+    lap_ = lay_over(
+        roll_.whole(), lap, !roll_.is_noisy(), [&](double rolled) { return roll_.drift_share(rolled, lap.length); },
+        near_corner);
+  }
+
+  void fit_lap() {
+    taught_.lap = lap_.length();
+    taught_.overlap = goes_on_ ? std::max(0.0, roll_.whole().length() - taught_.lap) : 0;
+    course_ = open_course(roll_, lap_, sums_);
+    for (const TurningRun& run : lap_.runs) taught_.rows += run.s.size();
+  }
+
+  void measure_deviation(const TurningCourse& course, const TurningRuns& rows) {
+    for (std::size_t index = 0; index < course.size(); ++index) {
+      const TurningRun& run = rows.runs[index];
+      for (std::size_t k = 0; k < run.s.size(); ++k) {
+        taught_.deviation = std::max(taught_.deviation, std::abs(course[index].at(run.s[k]) - run.angle[k]));
+      }
+    }
+  }
+
+  /// From the end of the rows to their start: what the curve misses of the rows counts as well.
+  double gap_of(const TurningCourse& course, const TurningRuns& rows) const {
+    Vec2 gap = path_of(course, Vec2::Zero()).gap();
+    for (std::size_t index = 0; index < course.size(); ++index) {
+      const TurningRun& run = rows.runs[index];
+      for (std::size_t k = 0; k < run.s.size(); ++k) {
+        const double from = k == 0 ? run.lo : 0.5 * (run.s[k - 1] + run.s[k]);
+        const double to = k + 1 == run.s.size() ? run.hi : 0.5 * (run.s[k] + run.s[k + 1]);
+        const double there = course[index].at(run.s[k]);
+        gap -= (to - from) * Vec2(std::cos(run.angle[k]) - std::cos(there), std::sin(run.angle[k]) - std::sin(there));
+      }
+    }
+    return gap.norm();
+  }
+
+  /// What the turn is off, where no rows of a second pass say it.
+  void measure_turn() {
+    if (!goes_on_) {
+      // Of exact rows the first and the last say it best.
+      const double turn = roll_.is_noisy() ? course_.back().angle.back() - course_.front().angle.front()
+                                           : lap_.runs.back().angle.back() - lap_.runs.front().angle.front();
+      taught_.turn_gap = turn_gap(turn);
+      taught_.turns = static_cast<int>(std::lround(turn / kFullTurn));
+    }
+    taught_.turn = kFullTurn * taught_.turns + taught_.turn_gap;
+  }
+
+  void close() {
+    const TurningCourse& course = course_;
+    measure_turn();
+    const double open_gap = gap_of(course, lap_);
+    const bool turn_closes = std::abs(taught_.turn_gap) <= taught_.turn_allowed;
+    const bool is_pivoting = lap_.starts_at_corner || lap_.ends_at_corner;
+    const bool corner_at_seam =
+        is_pivoting || (!turn_closes && std::abs(taught_.turn_gap) >= kLeastCorner && open_gap <= taught_.gap_allowed);
+    taught_.gap = open_gap;
+    if (corner_at_seam || turn_closes) {
+      RoundCourse round = corner_at_seam ? RoundCourse{course, lap_, 0}
+                                         : round_course(roll_, lap_, taught_.turns, taught_.turn_gap, sums_);
+      taught_.gap = gap_of(round.course, round.rows);
+      if (taught_.gap <= taught_.gap_allowed) {
+        measure_deviation(round.course, round.rows);
+        const Closure closure = close_gap(round.course);
+        if (closure.closed) {
+          taught_.correction = closure.correction + std::abs(round.drift);
+          taught_.closing = Closing::spread;
+          draw(round.course, true);
+          if (corner_at_seam) ++taught_.corners;
+          return;
+        }
+      }
+    }
+    course_ = open_course(roll_, lap_, sums_);
+    measure_deviation(course_, lap_);
+    taught_.closing = Closing::kept_open;
+    draw(course, false);
+  }
+
+  /// Whatever drift allows: who asks for it knows that the roll did not come back.
+  void bridge() {
+    measure_turn();
+    taught_.gap = gap_of(course_, lap_);
+    if (goes_on_ || taught_.gap <= kNoGap * taught_.lap) {
+      throw InputError(
+          fmt::format("{}: `bridge`: expected a roll that ends before its start, found one that {}; leave "
+                      "`bridge` out",
+                      roll_.log().name,
+                      goes_on_ ? fmt::format("comes back to it after {:.6g} of {:.6g}", taught_.lap, taught_.rolled)
+                               : "ends where it started"));
+    }
+    measure_deviation(course_, lap_);
+    taught_.closing = Closing::bridged;
+    draw(course_, true);
+    build_bridge();
+  }
+
+  void draw_open() {
+    taught_.turn = course_.back().angle.back() - course_.front().angle.front();
+    taught_.gap = gap_of(course_, lap_);
+    measure_deviation(course_, lap_);
+    draw(course_, false);
+  }
+
+  void draw(TurningCourse course, bool closed) {
+    const double direction = roll_.start_direction();
+    for (TurningNodes& nodes : course) {
+      for (double& angle : nodes.angle) angle += direction;
+    }
+    const TurningPath path = path_of(course, roll_.start_point());
+    taught_.outline.name = roll_.log().name;
+    taught_.outline.unit = roll_.log().unit;
+    taught_.outline.closed = closed;
+    for (const TurningSpan& span : path.spans) taught_.outline.curves.emplace_back(span);
+    taught_.corners = course.size() - 1;
+    taught_.outline.accuracy = accuracy();
+    taught_.outline.hole = closed && roll_.is_fingers() && taught_.turns < 0;
+  }
+
+  /// Of a fit of so many coefficients each row's error leaves a share, and that is alike over a coefficient's length.
+  Accuracy accuracy() {
+    Accuracy accuracy;
+    const double lap = lap_.length();
+    const auto rows = static_cast<double>(taught_.rows);
+    accuracy.length = roll_.noise().slip;
+    if (roll_.is_fingers()) accuracy.length = std::hypot(roll_.noise().slip, roll_.noise().radius / roll_.radius());
+    accuracy.length = std::hypot(accuracy.length, lap_sd_ / lap);
+    if (!roll_.is_noisy()) {
+      const double rounding = roll_.how().tolerance / (2 * std::numbers::sqrt3);
+      accuracy.turn = std::max(rounding, interpolated_);
+      accuracy.alike = lap / rows;
+      return accuracy;
+    }
+    const double free = std::max(1.0, rows - sums_.coefficients);
+    taught_.row_sd = std::sqrt(sums_.squares / free);
+    const double sd = std::max(roll_.errors().sd, taught_.row_sd);
+    accuracy.turn = kUnseen * sd * std::sqrt(sums_.coefficients / rows);
+    accuracy.alike = lap / std::max(1.0, sums_.coefficients);
+    double gathered = roll_.drift_variance();
+    if (roll_.errors().gathers) {
+      accuracy.turn = sd;
+      accuracy.alike = lap / rows;
+    }
+    accuracy.walk = std::sqrt(gathered / lap);
+    return accuracy;
+  }
+
+  /// A cubic with the tangents of both ends and, about, the gap's length.
+  void build_bridge() {
+    std::vector<Curve>& curves = taught_.outline.curves;
+    const Vec2 from = curves.back().back();
+    const Vec2 to = curves.front().front();
+    const Vec2 chord = to - from;
+    const Vec2 leave = chord.norm() * curves.back().velocity(curves.back().domain().hi);
+    const Vec2 arrive = chord.norm() * curves.front().velocity(0);
+    const CubicSpan bridge(from, to, 3 * chord - 2 * leave - arrive, leave + arrive - 2 * chord);
+    constexpr int kSteps = 1000;
+    for (int k = 0; k < kSteps; ++k) taught_.bridge += bridge.velocity((k + 0.5) / kSteps).norm() / kSteps;
+    curves.emplace_back(bridge);
+  }
+
+  FeltRoll roll_;
+  TeachOptions options_;
+  double size_ = 0;
+  TurningRuns lap_;
+  bool goes_on_ = false;
+  double lap_sd_ = 0;
+  FitSums sums_;
+  double interpolated_ = 0;     // radians: how far exact rows leave Theta open between them
+  TurningCourse whole_course_;  // Theta of both, nothing closed
+  TurningCourse course_;
+  Taught taught_;
+};
+
+}  // namespace
+
+Taught teach(const Log& log, const TeachOptions& options) {
+  const Doing doing("making a part of the roll");
+  return Teacher(log, options).teach();
+}
+
+}  // namespace rollfix
