@@ -66,7 +66,7 @@ Observation observe(const Problem& problem) {
     throw InputError("`facing` goes with `reading`: a log of two fingers has it in u and psi");
   }
   Observation observed = problem.felt.is_log() ? observe_log(problem) : observe_readings(problem);
-  if (!problem.noise && !problem.tolerance) put_on_corners(problem.part, observed.length_error(), observed.readings);
+  if (!problem.noise) put_on_corners(problem.part, observed.length_error(), observed.readings);
   return observed;
 }
 

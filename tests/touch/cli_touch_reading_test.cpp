@@ -183,6 +183,20 @@ TEST(CliTouchReading, ABatchHasTouchesAsWell) {
   EXPECT_THAT(lines[3]["error"].get<std::string>(), HasSubstr("expected one of \"readings\", \"log\" and \"touches\""));
 }
 
+TEST(CliTouchReading, ABatchHasNormalsAloneAsTheCommandLineHasThem) {
+  const Folder folder;
+  folder.write("b.jsonl", R"({"touches": [[108.088, 86.821], [124.014, 51.172], [null, null, 1.2]]})"
+                          "\n"
+                          R"({"touches": [[108.088, 86.821], [124.014, 51.172], ",,1.2"]})"
+                          "\n");
+  const Ran ran = run("locate " + kBracket + " --batch b.jsonl --finger disk,r=3 --noise position=0.02,angle=0.01");
+  ASSERT_EQ(ran.code, 0) << ran.out;
+  std::istringstream text(ran.out);
+  std::string lists, typed;
+  ASSERT_TRUE(std::getline(text, lists) && std::getline(text, typed));
+  EXPECT_EQ(Json::parse(lists)["placements"], Json::parse(typed)["placements"]);
+}
+
 TEST(CliTouchReading, WhatIsWrongIsToldWithItsLineItsValueAndTheCure) {
   const auto refused = [](const std::string& text, const std::string& rest = " --noise position=0.1") {
     const Ran ran = located("t.csv", text, rest);

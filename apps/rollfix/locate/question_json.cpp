@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstddef>
 #include <utility>
 
 #include "rollfix/arguments/question_arguments.hpp"
@@ -76,7 +77,7 @@ std::string typed_touch(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   std::string text;
   if (value.is_array()) {
-    for (const Json& one : value) text += (text.empty() ? "" : ",") + field(one);
+    for (std::size_t k = 0; k < value.size(); ++k) text += (k == 0 ? "" : ",") + field(value[k]);
     return text;
   }
   if (!value.is_object() || !value.contains("at")) {
