@@ -45,7 +45,8 @@ bool cover_all(const std::vector<Cell>& cells) {
     if (cell.heading.is_all()) return true;
     const double middle = nearest_angle(cell.heading.middle);
     for (const double lap : {-kFullTurn, 0.0, kFullTurn}) {
-      arcs.push_back({middle - cell.heading.half + lap, middle + cell.heading.half + lap});
+      const Interval arc{middle - cell.heading.half + lap, middle + cell.heading.half + lap};
+      if (arc.hi >= -std::numbers::pi && arc.lo <= std::numbers::pi) arcs.push_back(arc);
     }
   }
   std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });

@@ -13,6 +13,8 @@ constexpr double kFinerLevel = 0.125;
 // A set with more than this share of the cells that are enough is a continuum.
 // A pose that is held has some ten or a hundred of them, however fine.
 constexpr double kContinuumShare = 0.1;
+// More cells than so many times what is enough are a continuum: coarser ones will do.
+constexpr std::size_t kFarTooMany = CellSearch::kMostCells / kEnoughCells;
 
 double finer(double leaf) { return std::max(CellSearch::kLeaf, kFinerLevel * leaf); }
 
@@ -39,12 +41,13 @@ void add(const std::vector<Cell>& more, std::vector<Cell>& to) { to.insert(to.en
 LevelCells search_levels(std::optional<CellSearch>& search, const AllContacts& contacts, const TouchPair& pair,
                          std::size_t budget, std::size_t enough) {
   LevelCells level;
-  search.emplace(contacts.each, pair, budget);
+  const std::size_t most = kFarTooMany * enough;
+  search.emplace(contacts.each, pair, budget, most);
   if (contacts.rolls.empty()) {
     level.cells = search->search();
     if (level.cells.undecided.empty()) return level;
     level.abandoned = search->comparisons();
-    search.emplace(contacts.each, pair, budget);
+    search.emplace(contacts.each, pair, budget, most);
   }
   level.leaf = coarsest_leaf(contacts.each, pair);
   level.cells = search->search(level.leaf);

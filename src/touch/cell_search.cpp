@@ -14,7 +14,9 @@
 //   (a, b)          stretches of two touches, a cell: `first`, `second`; phi +- h are the part's headings:
 //                   `Cell::heading`
 //   lists           stretches on which each further touch can be: `candidates_`, from `list.first` to `list.second`
-// Tests: the chord, |R(phi)(c_b - c_a) - (q_2 - q_1)| <= rho_a + rho_b + delta_1 + delta_2, by the law of cosines;
+//   f               a node is no wider than this to both sides of its tangent: `Node::flat`
+// Tests: the chord, |R(phi)(c_b - c_a) - (q_2 - q_1)| <= rho_a + rho_b + delta_1 + delta_2, by the law of cosines, and
+// where c_b - c_a is in the rectangle that the widths leave;
 // normals, |tau - theta - phi| <= w + eps; further touches, from a and from b, |c_a + R(-phi)(q_i - q_1) - c_i| <=
 // radii and deltas and 2 |q_i - q_1| sin(h / 2).
 // Follows docs/touch.md, "How it works".
@@ -23,10 +25,28 @@
 namespace rollfix::touch {
 namespace {
 
-// A search that keeps more cells than this has met a continuum far wider than its tolerance, and memory ends.
-constexpr std::size_t kMostCells = 600000;
 // Headings are rounded, radians.
 constexpr double kGrain = 1e-12;
+
+// Strips tell more than discs where they are longer than what touches are off by, and where two chords' ends are on
+// strips whose directions have a sine below this.
+constexpr double kAlike = 0.3;
+
+/// How far from its middle the centres of a node are across a direction by which its own has this cosine and sine.
+double across(double radius, double flat, double cosine, double sine) {
+  return std::min(radius, cosine * flat + sine * radius);
+}
+
+/// Every vector from a centre of one single node to one of another.
+VectorBox chords(const PathTree::Node& from, const PathTree::Node& to) {
+  const Vec2 middle = to.middle - from.middle;
+  const double cosine = std::abs(from.along.dot(to.along));
+  const double sine = std::abs(cross(from.along, to.along));
+  const double ahead = from.radius + across(to.radius, to.flat, sine, cosine);
+  const double left = from.flat + across(to.radius, to.flat, cosine, sine);
+  const Vec2 at(from.along.dot(middle), cross(from.along, middle));
+  return {from.along, {at.x() - ahead, at.x() + ahead}, {at.y() - left, at.y() + left}};
+}
 
 }  // namespace
 
@@ -51,8 +71,9 @@ TouchPair choose_pair(const std::vector<Measured>& touches) {
   return best;
 }
 
-CellSearch::CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget)
-    : touches_(touches), pair_(pair), budget_(budget) {
+CellSearch::CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget,
+                       std::size_t most_cells)
+    : touches_(touches), pair_(pair), budget_(budget), most_cells_(most_cells) {
   for (std::size_t k = 0; k < touches.size(); ++k) {
     if (k != pair.first && k != pair.second) others_.push_back(k);
   }
@@ -87,8 +108,14 @@ HeadingArc CellSearch::headings(const Cell& cell) const {
   if (by_normals.is_empty() || !one.has_place || !other.has_place) return by_normals;
   const PathTree::Node& first = tree(pair_.first).node(cell.first);
   const PathTree::Node& second = tree(pair_.second).node(cell.second);
-  const double slack = first.radius + second.radius + one.place_most + other.place_most;
-  return common(by_normals, headings_between(second.middle - first.middle, other.at - one.at, slack));
+  const double slack = one.place_most + other.place_most;
+  const Vec2 measured = other.at - one.at;
+  const double radii = first.radius + second.radius;
+  const HeadingArc by_discs =
+      common(by_normals, headings_between(second.middle - first.middle, measured, radii + slack));
+  const bool are_strips = first.is_single() && second.is_single() && radii > slack;
+  if (by_discs.is_empty() || !are_strips || std::abs(cross(first.along, second.along)) > kAlike) return by_discs;
+  return common(by_discs, headings_between(chords(first, second), measured, slack));
 }
 
 double CellSearch::size(std::size_t touch, std::int32_t node) const {
@@ -99,7 +126,7 @@ double CellSearch::size(std::size_t touch, std::int32_t node) const {
   return one.tangent ? std::max(place, at.half_turn / (leaf_ * one.angle_most)) : place;
 }
 
-/// Where a touch can be, with the two touches of the cell in theirs: a disc for each of them that has a place.
+/// Where a touch can be, with the two touches of the cell in theirs: by each of them that has a place.
 CellSearch::Expected CellSearch::expected(const Cell& cell, std::size_t touch) const {
   const Measured& one = touches_[touch];
   Expected result;
@@ -110,12 +137,27 @@ CellSearch::Expected CellSearch::expected(const Cell& cell, std::size_t touch) c
     const PathTree::Node& of = tree(from).node(base);
     const Vec2 vector = one.at - touches_[from].at;
     const Vec2 in_part(cosine_ * vector.x() + sine_ * vector.y(), cosine_ * vector.y() - sine_ * vector.x());
-    result.discs[result.count++] = {of.middle + in_part,
-                                    of.radius + one.place_most + touches_[from].place_most + swing * vector.norm()};
+    Around& around = result.places[result.count++];
+    around = {of.middle + in_part, of.along, of.radius, of.flat,
+              one.place_most + touches_[from].place_most + swing * vector.norm()};
   };
   add(pair_.first, cell.first);
   add(pair_.second, cell.second);
   return result;
+}
+
+/// By discs, and by strips.
+bool CellSearch::are_apart(const Around& around, const PathTree::Node& node) {
+  const Vec2 off = node.middle - around.middle;
+  const double radii = around.radius + node.radius;
+  const double reach = radii + around.slack;
+  if (off.squaredNorm() > reach * reach) return true;
+  if (radii <= around.slack) return false;
+  const double cosine = std::abs(around.along.dot(node.along));
+  const double sine = std::abs(cross(around.along, node.along));
+  return std::abs(cross(around.along, off)) >
+             around.flat + across(node.radius, node.flat, cosine, sine) + around.slack ||
+         std::abs(cross(node.along, off)) > node.flat + across(around.radius, around.flat, cosine, sine) + around.slack;
 }
 
 /// Whether a touch can be in this node.
@@ -124,8 +166,7 @@ bool CellSearch::may_hold(const Cell& cell, const Expected& expected, std::size_
   const Measured& one = touches_[touch];
   const PathTree::Node& at = tree(touch).node(node);
   for (std::size_t k = 0; k < expected.count; ++k) {
-    const double reach = expected.discs[k].radius + at.radius;
-    if ((expected.discs[k].middle - at.middle).squaredNorm() > reach * reach) return false;
+    if (are_apart(expected.places[k], at)) return false;
   }
   if (!one.tangent) return true;
   const double off = std::abs(nearest_angle(*one.tangent - at.angle - cell.heading.middle));
@@ -158,7 +199,7 @@ bool CellSearch::narrow(const Cell& cell, std::size_t touch, std::pair<std::size
 }
 
 void CellSearch::visit(const Cell& cell, const Lists& lists) {
-  if (comparisons_ >= budget_ || found_.fit.size() >= kMostCells) {
+  if (comparisons_ >= budget_ || found_.fit.size() >= most_cells_) {
     found_.undecided.push_back(cell);
     return;
   }

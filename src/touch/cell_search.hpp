@@ -44,7 +44,11 @@ class CellSearch {
   /// it of the tolerance of angle.
   static constexpr double kLeaf = 0.5;
 
-  CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget);
+  /// A search that keeps more cells than this has met a continuum far wider than its tolerance, and memory ends.
+  static constexpr std::size_t kMostCells = 600000;
+
+  CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget,
+             std::size_t most_cells = kMostCells);
 
   /// From all places; from these cells alone, to another leaf.
   Cells search(double leaf = kLeaf) {
@@ -61,14 +65,19 @@ class CellSearch {
   HeadingArc headings(const Cell& cell) const;
   HeadingArc by_normal(std::size_t touch, std::int32_t node) const;
   bool narrow(const Cell& cell, std::size_t touch, std::pair<std::size_t, std::size_t>& list);
-  struct Disc {
+  /// Where a touch is by a node of another one: as that node, moved, and off by no more than `slack`.
+  struct Around {
     Vec2 middle = Vec2::Zero();
+    Vec2 along = Vec2::UnitX();
     double radius = 0;
+    double flat = 0;
+    double slack = 0;
   };
   struct Expected {
-    std::array<Disc, 2> discs{};
+    std::array<Around, 2> places{};
     std::size_t count = 0;
   };
+  static bool are_apart(const Around& around, const PathTree::Node& node);
   Expected expected(const Cell& cell, std::size_t touch) const;
   bool may_hold(const Cell& cell, const Expected& expected, std::size_t touch, std::int32_t node);
   double size(std::size_t touch, std::int32_t node) const;  // in leaves: up to 1 it is one
@@ -79,6 +88,7 @@ class CellSearch {
   const std::vector<Measured>& touches_;
   TouchPair pair_;
   std::size_t budget_;
+  std::size_t most_cells_;
   double leaf_ = kLeaf;
   std::size_t comparisons_ = 0;
   std::vector<std::size_t> others_;

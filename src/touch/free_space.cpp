@@ -14,11 +14,15 @@ namespace rollfix::touch {
 struct CellView {
   Vec2 first = Vec2::Zero();   // the first contact, in the world, and ...
   Vec2 middle = Vec2::Zero();  // ... in the part's frame
-  Pose back{};                 // its turn
+  double cosine = 1;           // of its heading
+  double sine = 0;
   double slack = 0;
   double swing = 0;
 
-  Vec2 in_part(const Vec2& place) const { return middle + back.turned(place - first); }
+  Vec2 in_part(const Vec2& place) const {
+    const Vec2 off = place - first;
+    return middle + Vec2(cosine * off.x() + sine * off.y(), cosine * off.y() - sine * off.x());
+  }
   double moved(const Vec2& place) const { return slack + swing * (place - first).norm(); }
 };
 
@@ -104,7 +108,12 @@ bool walk(const Clear& path, double least_step, const Look& look) {
 CellView view_of(const Cell& cell, const PathTree& tree, const Measured& first) {
   const PathTree::Node& node = tree.node(cell.first);
   const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
-  return {first.at, node.middle, {0, 0, -cell.heading.middle}, node.radius + first.place_most, swing};
+  return {first.at,
+          node.middle,
+          std::cos(cell.heading.middle),
+          std::sin(cell.heading.middle),
+          node.radius + first.place_most,
+          swing};
 }
 
 /// How far a pose of the cell may have a place from where the middle of another has it: of all places of a straight

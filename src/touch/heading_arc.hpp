@@ -45,4 +45,56 @@ inline HeadingArc headings_between(const Vec2& part, const Vec2& world, double s
   return {angle_between(part, world), std::acos(std::clamp(cosine, -1.0, 1.0))};
 }
 
+/// A rectangle of vectors: coordinates along a direction, and to the left of it.
+struct VectorBox {
+  Vec2 direction = Vec2::UnitX();
+  Interval ahead;
+  Interval left;
+
+  Vec2 vector(double ahead_by, double left_by) const {
+    return ahead_by * direction + left_by * Vec2(-direction.y(), direction.x());
+  }
+  bool is_empty() const { return ahead.lo > ahead.hi || left.lo > left.hi; }
+  bool has_zero() const { return ahead.contains(0) && left.contains(0); }
+};
+
+/// What a coordinate can be where the length is known, and the other coordinate: up to two intervals, here from the
+/// first to the end of the second; lo above hi: nothing.
+inline Interval coordinate(const Interval& own, const Interval& other, const Interval& length) {
+  const double rounding = 1e-14 * length.hi * length.hi;  // of squares
+  const double most_other = std::max(std::abs(other.lo), std::abs(other.hi));
+  const double least_other = std::max({0.0, other.lo, -other.hi});
+  const double square = length.hi * length.hi - least_other * least_other + rounding;
+  if (square < 0) return {1, 0};
+  const double hi = std::sqrt(square);
+  const double lo = std::sqrt(std::max(0.0, length.lo * length.lo - most_other * most_other - rounding));
+  const bool is_below = own.lo <= -lo && own.hi >= -hi;
+  const bool is_above = own.lo <= hi && own.hi >= lo;
+  if (!is_below && !is_above) return {1, 0};
+  return {is_below ? std::max(own.lo, -hi) : std::max(own.lo, lo),
+          is_above ? std::min(own.hi, hi) : std::min(own.hi, -lo)};
+}
+
+/// The headings by which some vector of a box is turned to within `slack` of one of the world.
+inline HeadingArc headings_between(VectorBox part, const Vec2& world, double slack) {
+  const double in_world = world.norm();
+  if (in_world <= slack) return {};
+  const Interval length{in_world - slack, in_world + slack};
+  part.ahead = coordinate(part.ahead, part.left, length);
+  if (part.is_empty()) return kNoHeading;
+  part.left = coordinate(part.left, part.ahead, length);
+  if (part.is_empty()) return kNoHeading;
+  if (part.has_zero()) return {};
+  const Vec2 middle = part.vector(part.ahead.middle(), part.left.middle());
+  double slope = 0;  // of the corners, seen from there
+  for (const double ahead : {part.ahead.lo, part.ahead.hi}) {
+    for (const double left : {part.left.lo, part.left.hi}) {
+      const Vec2 corner = part.vector(ahead, left);
+      if (!(middle.dot(corner) > 0)) return {};
+      slope = std::max(slope, std::abs(cross(middle, corner)) / middle.dot(corner));
+    }
+  }
+  return {angle_between(middle, world), std::atan(slope) + std::asin(slack / in_world)};
+}
+
 }  // namespace rollfix::touch

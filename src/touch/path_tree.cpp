@@ -55,7 +55,8 @@ std::int32_t PathTree::add_single(std::int32_t stretch, const Interval& u, const
   node.angle = 0.5 * (at_lo + at_hi);
   node.half_turn = 0.5 * std::abs(at_hi - at_lo) + kTurnAccuracy;
   node.along = {std::cos(node.angle), std::sin(node.angle)};
-  node.flat = node.radius * std::sin(std::min(node.half_turn, 0.5 * std::numbers::pi));
+  node.flat = node.radius * std::sin(std::min(node.half_turn, 0.5 * std::numbers::pi)) +
+              kDiscRounding * path_.part().perimeter();
   nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size()) - 1;
 }
@@ -76,6 +77,7 @@ std::int32_t PathTree::join(std::size_t from, std::size_t to) {
   const double hi = std::max(left.angle + left.half_turn, right.angle + right.half_turn);
   joined.angle = 0.5 * (lo + hi);
   joined.half_turn = 0.5 * (hi - lo);
+  joined.flat = joined.radius;
   joined.number = {left.number.lo, right.number.hi};
   nodes_.push_back(joined);
   return static_cast<std::int32_t>(nodes_.size()) - 1;

@@ -19,7 +19,8 @@ class PathTree {
     double angle = 0;  // of the tangent, radians: at most half_turn from this
     double half_turn = 0;
     Vec2 along = Vec2::UnitX();  // of a single one: the direction of `angle`, ...
-    double flat = 0;             // ... and how far its centres are, at most, from the line through the middle along it
+    double flat = 0;             // ... and how far its centres are, at most, from the line through the middle along it;
+                                 // of others, of which there is no such line, the radius
     Interval number;             // of its places
     std::int32_t stretch = -1;   // of a single one, with ...
     Interval u;                  // ... its places

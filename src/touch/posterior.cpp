@@ -248,7 +248,7 @@ class Weigher {
       places_ += column_.places.size();
       result_.is_too_long = places_ > most_places_;
       if (result_.is_too_long) return;
-      for (std::size_t k = 0; k < column_.places.size(); ++k) add_place(g, k);
+      for (std::size_t k = 0; k < column_.places.size(); ++k) add_place(groups, g, k);
     }
   }
 
@@ -271,19 +271,37 @@ class Weigher {
     return std::min(most, std::sqrt(own));
   }
 
-  void add_place(std::size_t group, std::size_t k) {
+  void add_place(const Groups& groups, std::size_t group, std::size_t k) {
     const Held held{first_, place_of(column_.node, column_.places[k])};
     for (const double heading : start_headings(sets_, sets_.groups[group])) {
-      add_pose(group, k, held, fit_.fit(fit_.pose_at(held, heading), held));
+      add_pose(groups, group, k, held, fit_.fit(fit_.pose_at(held, heading), held));
     }
   }
 
-  void add_pose(std::size_t group, std::size_t k, const Held& held, const FittedPose& best) {
+  bool has_heading(std::size_t group, double heading) const {
+    return std::any_of(sets_.groups[group].begin(), sets_.groups[group].end(), [&](std::size_t k) {
+      const HeadingArc& arc = sets_.cells[k].heading;
+      return std::abs(nearest_angle(heading - arc.middle)) <= arc.half;
+    });
+  }
+
+  /// The group that a pose is in, as least squares may lead to another one: by its heading, as its place is the same.
+  std::size_t home_of(double heading, const Groups& groups, std::size_t from) const {
+    if (has_heading(from, heading)) return from;
+    for (std::size_t g = groups.begin; g < groups.end; ++g) {
+      if (has_heading(g, heading)) return g;
+    }
+    return from;
+  }
+
+  void add_pose(const Groups& groups, std::size_t from, std::size_t k, const Held& held, const FittedPose& best) {
     const auto known = find_known(fit_, best, column_.known[k]);
     if (known != column_.known[k].end()) {
-      result_.owner[group] = known->group;
+      result_.owner[from] = known->group;
       return;
     }
+    const std::size_t group = home_of(best.pose.heading, groups, from);
+    if (group != from) result_.owner[from] = group;
     column_.known[k].push_back({best, group});
     PosteriorNode node = maker_.node_at(held, best);
     node.group = group;

@@ -32,8 +32,8 @@ struct Posterior {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   std::vector<PosteriorNode> nodes;
-  /// Of a group whose best poses all are another's already, that group: the touches have other places on the part, but
-  /// from there least squares lead to the same poses. kNone of all others.
+  /// Of a group from which least squares lead to a pose in another one: that one. The group goes with it if it has no
+  /// pose of its own. kNone of all others.
   std::vector<std::size_t> owner;
   /// Components whose best pose fits so much worse than that of another that they were not looked at.
   std::size_t hopeless = 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slide_bounds.hpp"
+
 namespace rollfix {
 namespace {
 
@@ -34,7 +36,8 @@ std::optional<Slide> slide_of(const TouchAnswer& answer, const TouchPose& pose) 
   const double direction = of_line(pose.pose.heading + along);
   const double by_x = range[0].width() / std::abs(std::cos(direction));
   const double by_y = range[1].width() / std::abs(std::sin(direction));
-  return Slide{direction, std::min(by_x, by_y)};
+  const double by_extent = std::min(by_x, by_y);
+  return Slide{direction, std::min(by_extent, touch::slide_between_sides(answer, pose, direction).value_or(by_extent))};
 }
 
 }  // namespace rollfix
