@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -106,6 +107,10 @@ struct TouchPose {
   PoseSpread spread{};                                            // mean and covariance, given that it is
   std::array<Interval, 3> interval{};          // x, y, heading: each holds 95 % of this set's probability
   std::vector<MixtureTerm> heading_density{};  // given that it is; radians, unwrapped as `interval`
+
+  /// What to go by: with noise the mean, about which the intervals lie; without, and of a continuum, the pose that fits
+  /// best.
+  const Pose& estimate() const { return std::isnan(probability) || continuum || any_heading ? pose : spread.mean; }
 };
 
 /// How well the best pose fits the stated noise.

@@ -159,9 +159,9 @@ class TouchPicture {
       };
       const std::string where = answer_.place == PlaceKnown::unknown
                                     ? "its place is not known"
-                                    : fmt::format("x {}, y {}", place(pose.pose.x), place(pose.pose.y));
-      std::string text =
-          fmt::format("p{}: {}, heading {}", k, where, pose.any_heading ? "any" : pretty_degrees(pose.pose.heading));
+                                    : fmt::format("x {}, y {}", place(pose.estimate().x), place(pose.estimate().y));
+      std::string text = fmt::format("p{}: {}, heading {}", k, where,
+                                     pose.any_heading ? "any" : pretty_degrees(pose.estimate().heading));
       if (std::isfinite(pose.probability)) text += ", " + percent(pose.probability);
       if (pose.continuum) text += ", one of a continuum";
       result.push_back({Sign::line, colour(k), {{text}}, ""});

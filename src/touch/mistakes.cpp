@@ -50,6 +50,8 @@ constexpr std::size_t kMostTried = 32;
 
 // Of each mistake that is tried.
 constexpr std::size_t kMistakeBudget = kTouchBudget / 10;
+// Noise that is larger by less explains nothing.
+constexpr double kLeastMoreNoise = 1.05;
 // Of touches with more noise, which leaves more poses to weigh.
 constexpr std::size_t kNoiseBudget = kTouchBudget / 40;
 // A fitted radius is off by about so many standard deviations of a place.
@@ -208,7 +210,8 @@ void add_noise_factor(const TouchProblem& problem, std::vector<TouchDiagnosis>& 
     if (found.status != Status::complete || !found.fit || found.fit->freedom == 0) continue;
     if (found.fit->p < kExplains) continue;
     TouchDiagnosis what{TouchCause::noise};
-    what.factor = std::max(1.0, factor * std::sqrt(found.fit->chi_square / found.fit->freedom));
+    what.factor = factor * std::sqrt(found.fit->chi_square / found.fit->freedom);
+    if (what.factor < kLeastMoreNoise) return;  // one touch is further off than the search looks
     what.fit = *found.fit;
     what.poses = found.poses.size();
     what.pose = found.poses.front().pose;

@@ -134,11 +134,19 @@ class NodeMaker {
   double least_square_ = std::numeric_limits<double>::infinity();
 };
 
-/// A best pose, and the group that it was found from first.
+/// A best pose, the mode about which its node lies, and the group that it was found from first.
 struct KnownPose {
   FittedPose fitted;
+  Pose mode;
   std::size_t group = 0;
 };
+
+/// Whether the node lies about the same mode: from a corner and from the side next to it one is found twice.
+bool is_about(const PosteriorNode& node, const Pose& mode) {
+  const Eigen::Vector3d apart(node.pose.x - mode.x, node.pose.y - mode.y,
+                              nearest_angle(node.pose.heading - mode.heading));
+  return apart.dot(node.covariance.inverse() * apart) <= kSamePose * kSamePose;
+}
 
 /// Which of those that are known at the place a pose is; the end if it is none.
 std::vector<KnownPose>::const_iterator find_known(const PoseFit& fit, const FittedPose& found,
@@ -300,11 +308,14 @@ class Weigher {
       result_.owner[from] = known->group;
       return;
     }
-    const std::size_t group = home_of(best.pose.heading, groups, from);
-    if (group != from) result_.owner[from] = group;
-    column_.known[k].push_back({best, group});
     PosteriorNode node = maker_.node_at(held, best);
-    node.group = group;
+    const auto same = std::find_if(column_.known[k].begin(), column_.known[k].end(),
+                                   [&](const KnownPose& one) { return is_about(node, one.mode); });
+    const bool is_new = same == column_.known[k].end();
+    node.group = is_new ? home_of(best.pose.heading, groups, from) : same->group;
+    if (node.group != from) result_.owner[from] = node.group;
+    column_.known[k].push_back({best, node.pose, node.group});
+    if (!is_new) return;
     node.log_weight = node.log_density + column_.log_weights[k];
     if (column_.step > 0) {
       const Eigen::Vector3d along = column_.step * fit_.by_place(best, held).pose;

@@ -156,7 +156,10 @@ void require_tolerance(const TouchProblem& problem) {
                     "written 2deg",
                     kMostNormalTolerance, tolerance.angle));
   }
-  if (problem.pose) refuse("`pose` is weighed against noise: give `noise` as well");
+  if (problem.pose) {
+    refuse(fmt::format("`{}` is weighed against noise: give `noise` as well",
+                       std::isinf(problem.pose->place_sd) ? "heading" : "pose"));
+  }
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::touch {
 

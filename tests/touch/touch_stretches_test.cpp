@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/touch/slide.hpp"
+#include "rollfix/touch.hpp"
 #include "touch_cases.hpp"
 
 // Continua of poses: how many there are, how far each goes, and what single poses are beside it.

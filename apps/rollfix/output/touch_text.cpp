@@ -234,8 +234,9 @@ class TouchText {
       const TouchPose& pose = answer_.poses[k];
       std::vector<std::string> cells{fmt::format("p{}", k)};
       if (has_noise) cells.push_back(share(pose.probability));
-      const std::array<std::string, 3> values = {place(pose.pose.x), place(pose.pose.y),
-                                                 pose.any_heading ? "any" : degrees(pose.pose.heading)};
+      const Pose& at = pose.estimate();
+      const std::array<std::string, 3> values = {place(at.x), place(at.y),
+                                                 pose.any_heading ? "any" : degrees(at.heading)};
       for (int i = first; i < 3; ++i) {
         cells.push_back(values[static_cast<std::size_t>(i)]);
         if (has_noise) cells.push_back(rough(i < 2 ? sd(pose, i) : sd(pose, i) / kDegree));
