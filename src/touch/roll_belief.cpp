@@ -69,12 +69,6 @@ class Placed {
             node.at.y() - pose_.y - sine_ * centre.x() - cosine_ * centre.y(),
             turn - kFullTurn * std::rint(turn / kFullTurn)};
   }
-  /// A bound on square_of, by the heading alone.
-  double least_square_of(const RollNode& node) const {
-    const double turn = node.tangent - node.point.angle - pose_.heading;
-    const double off = turn - kFullTurn * std::rint(turn / kFullTurn);
-    return off * off * node.heading_information - 2 * node.log_density;
-  }
   /// In standard deviations, squared, and by how dense the belief is.
   double square_of(const RollNode& node) const {
     const Eigen::Vector3d off = miss_of(node);
@@ -105,7 +99,10 @@ RollBelief::RollBelief(const CentrePath& path, const std::vector<PosePiece>& pie
   });
   double most = -std::numeric_limits<double>::infinity();
   for (const RollNode& node : nodes_) most = std::max(most, node.log_density);
-  for (RollNode& node : nodes_) node.log_density -= most;
+  for (RollNode& node : nodes_) {
+    node.log_density -= most;
+    headings_.push_back({node.tangent - node.point.angle, node.heading_information, node.log_density});
+  }
   logs_.resize(nodes_.size());
   add_slopes();
 }
@@ -213,15 +210,19 @@ Pose RollBelief::pose_at(const RollNode& node) const {
 
 const RollNode& RollBelief::nearest(const Pose& pose) const {
   const Placed placed(pose);
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = nearest_;
+  double least = placed.square_of(nodes_[best]);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    if (placed.least_square_of(nodes_[k]) >= least) continue;
+    const OfHeading& node = headings_[k];
+    const double turn = node.heading - pose.heading;
+    const double off = turn - kFullTurn * std::rint(turn / kFullTurn);
+    if (off * off * node.information - 2 * node.log_density > least) continue;  // by the heading alone
     const double square = placed.square_of(nodes_[k]);
-    if (square >= least) continue;
+    if (square > least || (square == least && k > best)) continue;  // whichever was asked for before
     least = square;
     best = k;
   }
+  nearest_ = best;
   return nodes_[best];
 }
 

@@ -82,9 +82,18 @@ class RollBelief {
   void add(const PosePiece& piece);
   void add_node(const PosePiece& piece, const PosePiece::End& lo, const PosePiece::End& hi, double from, double to);
 
+  /// What a node says of the heading: all that most poses need to know of most nodes.
+  struct OfHeading {
+    double heading = 0;
+    double information = 0;
+    double log_density = 0;
+  };
+
   const CentrePath& path_;
   RollCentre centre_;
   std::vector<RollNode> nodes_;       // by place
+  std::vector<OfHeading> headings_;   // of each
+  mutable std::size_t nearest_ = 0;   // the last one that was asked for: the next is not far from it
   mutable std::vector<double> logs_;  // of `tilted`
 };
 

@@ -18,6 +18,8 @@ namespace {
 constexpr double kLeastProbability = 1e-4;
 // ... and if they are as improbable as this, not even looked at.
 constexpr double kNegligible = 1e-8;
+// Probabilities nearer than this share of them are one but for rounding.
+constexpr double kAsProbable = 1e-6;
 // Weighing poses with the first touch at one place takes as long as this many comparisons.
 constexpr std::size_t kPlaceCost = 2000;
 
@@ -106,6 +108,19 @@ std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, cons
   return found;
 }
 
+/// The most probable first; those that are as probable, as of a symmetric part, by their headings.
+void put_in_order(std::vector<TouchPose>& poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
+  for (auto first = poses.begin(); first != poses.end();) {
+    const double least = (1 - kAsProbable) * first->probability;
+    const auto end = std::find_if(first, poses.end(), [&](const TouchPose& one) { return one.probability < least; });
+    std::stable_sort(first, end,
+                     [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
+    first = end;
+  }
+}
+
 }  // namespace
 
 double length_in_reach(const CentrePath& path) {
@@ -136,8 +151,7 @@ WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t
     if (!result.fit || fits_better(one, *result.fit)) result.fit = one;
     result.poses.push_back(std::move(pose));
   }
-  std::stable_sort(result.poses.begin(), result.poses.end(),
-                   [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
+  put_in_order(result.poses);
   return result;
 }
 
