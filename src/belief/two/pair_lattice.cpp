@@ -333,6 +333,10 @@ void Spreading::from(const PairPeak& peak) {
     region.origin = peak.start;
     region.frame = frame_of(peak, factor);
     region.back = region.frame.inverse();
+    if (!region.back.allFinite()) {  // rows that contradict the noise by far: how wide it is can't be said
+      unresolved_ = std::numeric_limits<double>::infinity();
+      return;
+    }
     for (const std::size_t finger : {0U, 1U}) {
       region.origin_s[finger] = region.origin.arc[finger]->at(region.origin.w[finger]).s;
     }
