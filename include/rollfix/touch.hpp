@@ -62,7 +62,7 @@ struct TouchProblem {
   std::vector<Log> rolls{};                   // each of u and psi; with x and y they tell where the part is as well:
                                               // with noise where `position` is stated. Of one row: a touch of a finger
                                               // with skin
-  bool robust = false;                        // with noise: outliers among the rows of rolls don't count
+  bool robust = false;                        // with noise: any touch, and any row of a roll, may be an outlier
   std::vector<Clear> clear{};                 // where nothing was felt: poses in which the part is in the way go
 };
 
@@ -105,8 +105,9 @@ struct TouchPose {
   // With noise.
   double probability = std::numeric_limits<double>::quiet_NaN();  // of the part's pose being in this set
   PoseSpread spread{};                                            // mean and covariance, given that it is
-  std::array<Interval, 3> interval{};          // x, y, heading: each holds 95 % of this set's probability
-  std::vector<MixtureTerm> heading_density{};  // given that it is; radians, unwrapped as `interval`
+  std::array<Interval, 3> interval{};                 // x, y, heading: each holds 95 % of this set's probability
+  std::array<std::vector<MixtureTerm>, 3> density{};  // of each, given that it is; heading unwrapped as `interval`
+  std::vector<std::size_t> outliers{};                // robust: touches that most probably say nothing then, ascending
 
   /// What to go by: with noise the mean, about which the intervals lie; without, and of a continuum, the pose that fits
   /// best.
@@ -210,7 +211,11 @@ struct TouchAnswer {
   std::size_t comparisons = 0;
   std::vector<RollFacts> rolls{};
   PlaceKnown place = PlaceKnown::measured;
-  bool robust = false;  // as in the problem
+  bool robust = false;                         // as in the problem, and then: ...
+  std::vector<double> outlier{};               // ... probability of each touch to be an outlier, ...
+  double anywhere = 0;                         // ... and that so few contacts count that the pose is open; ...
+  std::optional<std::size_t> most_outliers{};  // ... sets of more touches were too many to look at; none: no chance
+                                               // of more
 
   std::size_t contact_count() const { return rolls.size() + touches.size(); }
   /// "unique", "ambiguous (2)", "unique, but the touches contradict the stated noise", ...
@@ -220,11 +225,13 @@ struct TouchAnswer {
 /// Every pose of a part at rest that fits touches of one finger, and its rolls: complete, by branch and prune over the
 /// places of two contacts on the boundary, of a roll over those that its readings leave. Places where a disk would
 /// enter the part elsewhere are left out. With noise also the posterior, if contacts are as likely anywhere on the
-/// boundary. One touch leaves a continuum: the verdict is `unobservable` and no pose is listed. One roll is what
-/// `solve` of a Problem makes of it. Throws InputError: no contact, none that has a place beside touches, a number that
-/// is not finite, a finger that is no disk for a touch, noise without `position` for a touch (or without `angle` where
-/// it has a normal), neither noise nor tolerance for a touch, a roll without u and psi or without a finger, and what
-/// `solve` of a Problem throws of each roll.
+/// boundary. If it is robust, a touch is an outlier, which says nothing, with probability 2 %: of each set of touches
+/// that may be outliers all poses that fit the others, added up. One touch, without `pose` and its place, leaves a
+/// continuum: the verdict is `unobservable` and no pose is listed. One roll is what `solve` of a Problem makes of it.
+/// Throws InputError: no contact, none that has a place beside touches, a number that is not finite, a finger that is
+/// no disk for a touch, noise without `position` for a touch (or without `angle` where it has a normal), neither noise
+/// nor tolerance for a touch, a roll without u and psi or without a finger, and what `solve` of a Problem throws of
+/// each roll.
 TouchAnswer solve(const TouchProblem& problem);
 
 /// How to read a table of touches.

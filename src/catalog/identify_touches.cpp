@@ -119,7 +119,8 @@ IdentifiedByTouches touches_of(const TouchProblem& like) {
 /// outliers among the rows no roll does.
 std::vector<std::size_t> parts_left(const Catalog& catalog, const TouchProblem& like, double excess,
                                     const IdentifyOptions& options, std::vector<std::size_t> parts) {
-  if (!options.use_index) return parts;
+  const bool may_have_outliers = like.robust && !like.touches.empty();  // then no touch rules a part out
+  if (!options.use_index || may_have_outliers) return parts;
   std::vector<std::size_t> left = TouchBounds(catalog, like).left_of(parts, options);
   if (like.robust) return left;
   const TouchProblem seen = like.mirrored ? touch::in_mirror(like) : like;

@@ -83,6 +83,11 @@ void require_certifiable(const TouchAnswer& answer) {
         "a certificate of touches: expected at least two contacts, found 1, which leaves all poses along the "
         "boundary; of one roll without noise certify its readings");
   }
+  if (answer.robust && !answer.touches.empty()) {
+    throw InputError(
+        "a certificate of touches: expected all touches to count, found `robust`, by which any of them may be an "
+        "outlier: leave it out, and the touches that are");
+  }
   if (answer.rolls.empty()) return;
   const bool any_single =
       std::any_of(answer.rolls.begin(), answer.rolls.end(), [](const RollFacts& roll) { return roll.rows == 1; });

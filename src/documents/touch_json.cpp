@@ -59,6 +59,7 @@ Json pose_set_json(const TouchAnswer& answer, const TouchPose& set) {
     json["extent"] = numbers(
         [](const TouchContact& contact) { return contact.extent ? json_interval(*contact.extent) : Json(nullptr); });
   }
+  if (answer.robust && !answer.touches.empty()) json["outliers"] = set.outliers;
   if (!answer.noise) return json;
   json["chi_square"] = json_number(set.chi_square);
   json["pose_mean"] = triple(set.spread.mean);
@@ -153,6 +154,10 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
   document["counts"] = {{"comparisons", answer.comparisons}};
   document["noise"] = answer.noise ? noise_json(*answer.noise) : Json(nullptr);
   if (answer.noise) document["rest"] = json_number(answer.rest);
+  if (!answer.outlier.empty()) {
+    document["outlier"] = json_numbers(answer.outlier);
+    document["anywhere"] = json_number(answer.anywhere);
+  }
   document["fit"] = answer.fit ? fit_of_touches(*answer.fit) : Json(nullptr);
   document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : each_of(answer.diagnoses, mistake_json);
   return layout == Layout::lines ? json_text(document) : json_line(document);

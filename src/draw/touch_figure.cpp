@@ -46,7 +46,7 @@ class TouchPicture {
     for (std::size_t k = poses_.size(); k-- > 0;) pose(svg, k);
     for (const RollFacts& roll : answer_.rolls) rolled(svg, roll);
     for (const Clear& path : answer_.clear) passed(svg, path);
-    for (const MeasuredTouch& touch : answer_.touches) touched(svg, touch);
+    for (std::size_t k = 0; k < answer_.touches.size(); ++k) touched(svg, answer_.touches[k], is_outlier(k));
     if (figure_.next != nullptr) advised(svg, *figure_.next);
     World::close(svg);
     const double below = world_.bottom();
@@ -136,12 +136,22 @@ class TouchPicture {
     svg.close_group();
   }
 
-  void touched(Svg& svg, const MeasuredTouch& touch) const {
+  /// In the pose that is drawn first.
+  bool is_outlier(std::size_t touch) const {
+    if (answer_.poses.empty()) return false;
+    const std::vector<std::size_t>& outliers = answer_.poses.front().outliers;
+    return std::binary_search(outliers.begin(), outliers.end(), touch);
+  }
+
+  /// An outlier is dashed, its dot hollow.
+  void touched(Svg& svg, const MeasuredTouch& touch, bool is_outlier) const {
     if (!touch.has_place()) return;
     const Vec2 at = world_.at(touch.at);
-    svg.open_group("touch");
-    if (answer_.radius > 0) svg.circle(at, world_.pixels(answer_.radius), stroke(kSoftInk, 0.8));
-    svg.circle(at, kWorldDot, draw::filled(kInk));
+    svg.open_group(is_outlier ? "outlier" : "touch");
+    if (answer_.radius > 0) {
+      svg.circle(at, world_.pixels(answer_.radius), stroke(kSoftInk, 0.8, is_outlier ? "3 2" : ""));
+    }
+    svg.circle(at, kWorldDot, is_outlier ? stroke(kInk, 1) : draw::filled(kInk));
     if (touch.normal) {
       const std::vector<Vec2> path = {at, at + kTouchNormal * Vec2(std::cos(*touch.normal), -std::sin(*touch.normal))};
       svg.polyline(without_tip(path, 4), stroke(kInk, 1));
@@ -165,6 +175,13 @@ class TouchPicture {
       if (std::isfinite(pose.probability)) text += ", " + percent(pose.probability);
       if (pose.continuum) text += ", one of a continuum";
       result.push_back({Sign::line, colour(k), {{text}}, ""});
+    }
+    for (std::size_t k = 0; k < answer_.touches.size(); ++k) {
+      if (!is_outlier(k)) continue;
+      result.push_back({Sign::line,
+                        kPaper,
+                        {{fmt::format("touch {} is an outlier, {} probable", k + 1, percent(answer_.outlier[k]))}},
+                        ""});
     }
     const std::size_t more = answer_.poses.size() - poses_.size();
     if (more > 0)

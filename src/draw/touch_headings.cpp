@@ -37,9 +37,9 @@ double heading_density_at(const std::vector<MixtureTerm>& terms, double degrees)
 }
 
 bool is_heading_known(const TouchPose& pose) {
-  const bool any_is_exact = std::any_of(pose.heading_density.begin(), pose.heading_density.end(),
+  const bool any_is_exact = std::any_of(pose.density[2].begin(), pose.density[2].end(),
                                         [](const MixtureTerm& term) { return !(term.sd > 0); });
-  return !pose.any_heading && !pose.heading_density.empty() && !any_is_exact;
+  return !pose.any_heading && !pose.density[2].empty() && !any_is_exact;
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void HeadingDensities::draw_one(Svg& svg, std::size_t pose, const Vec2& corner, 
   const auto columns = static_cast<int>(width);
   for (int k = 0; k <= columns; ++k) {
     const double degrees = axes.x.lo + axes.x.width() * k / columns;
-    values.emplace_back(degrees, heading_density_at(set.heading_density, degrees));
+    values.emplace_back(degrees, heading_density_at(set.density[2], degrees));
     axes.y.hi = std::max(axes.y.hi, (1 + kHeadingHeadroom) * values.back().y());
   }
   svg.open_group("heading-density");

@@ -94,7 +94,6 @@ TouchProblem rest_problem(const Question& question) {
   require_kind(question, QuestionKind::at_rest, "touches, or several rolls of a part at rest");
   const Measurements& measured = question.measured;
   TouchProblem problem{question.part, measured.touches};
-  if (measured.rolls.empty()) question::Uses(question).refuse(question.robust, "robust");
   question::hand_over(question, problem);
   require_one_exactness(question, measured.rolls.empty() ? "touches" : "rows");
   require_one_finger(question.fingers, 1);

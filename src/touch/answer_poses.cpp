@@ -20,15 +20,15 @@ constexpr double kContinuum = 12;
 // Headings of extents are rounded, radians.
 constexpr double kHeadingRounding = 1e-12;
 
-TouchContact contact_of(const PoseFit& fit, const FittedPose& fitted, std::size_t touch) {
-  const CentrePoint point = fit.path(touch).at(fitted.places[touch]);
-  const InPart at = fit.in_part(fitted.pose, touch);
+TouchContact contact_of(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& place) {
+  const CentrePoint point = fit.path(touch).at(place);
+  const InPart at = fit.in_part(pose, touch);
   TouchContact contact;
   contact.s = fit.path(touch).part().boundary().canonical(point.s);
-  contact.point = fit.path(touch).contact(fitted.places[touch]);
+  contact.point = fit.path(touch).contact(place);
   contact.tangent = nearest_angle(point.angle);
   if (const RollBelief* roll = fit.touches()[touch].roll) {
-    const Eigen::Vector3d off = roll->residual(fitted.pose, roll->at(fitted.places[touch]));
+    const Eigen::Vector3d off = roll->residual(pose, roll->at(place));
     if (at.has_place) contact.distance = off.head<2>().norm();
     contact.turn = off.z();
     return contact;
@@ -115,6 +115,22 @@ std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& c
   return extent;
 }
 
+PoseExtent extent_of(const PoseMode& mode, const std::vector<PosteriorNode>& nodes, const Pose& about) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  PoseExtent extent;
+  extent.fill({kFar, -kFar});
+  for (const std::size_t k : mode.nodes) {
+    const Pose& pose = nodes[k].pose;
+    const std::array<double, 3> at{pose.x, pose.y, about.heading + nearest_angle(pose.heading - about.heading)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      const double slack = kTouchSigmas * std::sqrt(nodes[k].covariance(axis, axis));
+      extend(extent[i], at[i] - slack, at[i] + slack);
+    }
+  }
+  return extent;
+}
+
 bool holds(const PoseExtent& extent, const Pose& pose, double place, double turn) {
   const auto is_in = [](const Interval& one, double value, double slack) {
     return value >= one.lo - slack && value <= one.hi + slack;
@@ -122,6 +138,10 @@ bool holds(const PoseExtent& extent, const Pose& pose, double place, double turn
   if (!is_in(extent[0], pose.x, place) || !is_in(extent[1], pose.y, place)) return false;
   const double off = std::abs(nearest_angle(pose.heading - extent[2].middle()));
   return off <= 0.5 * extent[2].width() + turn + kHeadingRounding;
+}
+
+TouchContact nearest_contact(const PoseFit& fit, const Pose& pose, std::size_t touch) {
+  return contact_of(fit, pose, touch, nearest_place(fit.tree(touch), fit.in_part(pose, touch)).place);
 }
 
 double worst_of(const PoseFit& fit, const FittedPose& fitted) {
@@ -174,12 +194,12 @@ TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vec
   result.pose = fitted.pose;
   result.chi_square = fitted.square;
   for (std::size_t k = 0; k < fitted.places.size(); ++k) {
-    result.contacts.push_back(contact_of(fit, fitted, k));
+    result.contacts.push_back(contact_of(fit, fitted.pose, k, fitted.places[k]));
     result.residual.length = std::max(result.residual.length, result.contacts.back().distance);
     result.residual.turn = std::max(result.residual.turn, std::abs(result.contacts.back().turn.value_or(0)));
   }
   result.worst = worst_of(fit, fitted);
-  result.any_heading = cover_all(cells);
+  result.any_heading = !fit.knows_heading() && cover_all(cells);
   result.extent = extent_of(fit, cells, pair, fitted.pose);
   if (result.any_heading) {
     result.extent[2] = {fitted.pose.heading - std::numbers::pi, fitted.pose.heading + std::numbers::pi};
@@ -213,9 +233,11 @@ void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<Post
   pose.probability = mode.probability;
   pose.spread.covariance = second / total - mean * mean.transpose();
   pose.spread.mean = {origin(0) + mean(0), origin(1) + mean(1), origin(2) + mean(2)};
-  for (std::size_t i = 0; i < 3; ++i) pose.interval[i] = middle_share(terms[i], 0.95);
-  pose.heading_density = std::move(terms[2]);
-  for (MixtureTerm& term : pose.heading_density) term.weight /= total;
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose.interval[i] = middle_share(terms[i], 0.95);
+    for (MixtureTerm& term : terms[i]) term.weight /= total;
+  }
+  pose.density = std::move(terms);
 }
 
 }  // namespace rollfix::touch

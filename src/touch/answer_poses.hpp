@@ -12,6 +12,9 @@
 
 namespace rollfix::touch {
 
+/// Where a contact is in a pose that it need not fit.
+TouchContact nearest_contact(const PoseFit& fit, const Pose& pose, std::size_t touch);
+
 /// The share of its tolerance that the worst residual takes.
 double worst_of(const PoseFit& fit, const FittedPose& fitted);
 
@@ -21,6 +24,9 @@ using PoseExtent = std::array<Interval, 3>;
 /// Around all poses that have their first two contacts on one of the cells; the heading is unwrapped about that of
 /// `about`.
 PoseExtent extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, const Pose& about);
+
+/// Around the nodes of a mode, each with its own spread.
+PoseExtent extent_of(const PoseMode& mode, const std::vector<PosteriorNode>& nodes, const Pose& about);
 
 /// Whether a pose is in an extent, or no further from it than these; modulo turns.
 bool holds(const PoseExtent& extent, const Pose& pose, double place = 0, double turn = 0);

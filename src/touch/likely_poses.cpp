@@ -32,11 +32,11 @@ constexpr std::size_t kOfOneTouch = 150;
 // One that clear paths leave less of is none.
 constexpr double kLeastFree = 1e-6;
 
-/// Moves poses to where they fit the touches of an answer: those along a continuum lie on a curve.
+/// Moves poses of a set to where they fit the touches that count: those along a continuum lie on a curve.
 class Refit {
  public:
-  explicit Refit(const TouchAnswer& answer)
-      : touches_(measured_of(answer)), path_(answer.part, answer.radius), tree_(path_), fit_(touches_, {}) {
+  Refit(const TouchAnswer& answer, const TouchPose& set)
+      : touches_(measured_of(answer, set)), path_(answer.part, answer.radius), tree_(path_), fit_(touches_, {}) {
     for (Measured& touch : touches_) touch.tree = &tree_;
   }
   Refit(const Refit&) = delete;
@@ -45,9 +45,10 @@ class Refit {
   Pose operator()(const Pose& pose) { return fit_.fit(pose).pose; }
 
  private:
-  static std::vector<Measured> measured_of(const TouchAnswer& answer) {
+  static std::vector<Measured> measured_of(const TouchAnswer& answer, const TouchPose& set) {
     std::vector<Measured> touches;
     for (std::size_t k = 0; k < answer.touches.size(); ++k) {
+      if (std::binary_search(set.outliers.begin(), set.outliers.end(), k)) continue;
       const TouchTolerance& most = answer.tolerance[k];
       Measured one;
       one.has_place = answer.touches[k].has_place();
@@ -77,10 +78,6 @@ Pose beside(const Pose& of_line, const Pose& fitted, const Eigen::Vector3d& alon
 }
 
 std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
-  std::optional<Refit> refit;
-  const bool any_continuum =
-      std::any_of(answer.poses.begin(), answer.poses.end(), [](const TouchPose& set) { return set.continuum; });
-  if (answer.noise && any_continuum && !answer.mirrored) refit.emplace(answer);
   std::vector<LikelyPose> poses;
   for (std::size_t k = 0; k < answer.poses.size(); ++k) {
     const TouchPose& set = answer.poses[k];
@@ -89,6 +86,8 @@ std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
       poses.push_back({k, weight, set.pose, answer.noise ? set.spread.covariance : Eigen::Matrix3d::Zero().eval()});
       continue;
     }
+    std::optional<Refit> refit;
+    if (!answer.mirrored) refit.emplace(answer, set);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(set.spread.covariance);
     const Eigen::Vector3d along = solver.eigenvectors().col(2) * std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
     const Eigen::Matrix3d across = set.spread.covariance - along * along.transpose();

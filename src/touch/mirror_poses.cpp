@@ -29,7 +29,9 @@ void mirror(TouchPose& pose) {
   mean = {-mean.x, mean.y, -mean.heading};
   const Eigen::Vector3d signs(-1, 1, -1);
   pose.spread.covariance = Eigen::Matrix3d(signs.asDiagonal() * pose.spread.covariance * signs.asDiagonal());
-  for (MixtureTerm& term : pose.heading_density) term.mean = -term.mean;
+  for (const std::size_t i : {0, 2}) {
+    for (MixtureTerm& term : pose.density[i]) term.mean = -term.mean;
+  }
   for (TouchContact& contact : pose.contacts) {
     if (contact.turn) contact.turn = -*contact.turn;
   }

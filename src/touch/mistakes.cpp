@@ -8,6 +8,7 @@
 
 #include "mistaken_units.hpp"
 #include "other_radius.hpp"
+#include "outlier_sets.hpp"
 #include "rollfix/outline.hpp"
 
 namespace rollfix {
@@ -167,7 +168,7 @@ class Mistakes {
 
   /// Where the others can still contradict each other.
   void add_outliers() {
-    if (problem_.touches.size() < 3) return;
+    if (problem_.touches.size() < 3 || problem_.robust) return;
     for (std::size_t k = 0; k < problem_.touches.size(); ++k) {
       TouchProblem without = problem_;
       without.touches.erase(without.touches.begin() + static_cast<std::ptrdiff_t>(k));
@@ -207,7 +208,7 @@ void add_noise_factor(const TouchProblem& problem, std::vector<TouchDiagnosis>& 
   for (double factor = 2; factor <= kMostNoise; factor *= 2) {
     const TouchProblem without = noisier(problem, factor);
     const TouchAnswer found = solve_plain(without);
-    if (found.status != Status::complete || !found.fit || found.fit->freedom == 0) continue;
+    if (found.status != Status::complete || !found.fit || found.fit->freedom == 0 || has_many_outliers(found)) continue;
     if (found.fit->p < kExplains) continue;
     TouchDiagnosis what{TouchCause::noise};
     what.factor = factor * std::sqrt(found.fit->chi_square / found.fit->freedom);
@@ -247,7 +248,11 @@ std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem) {
     const bool is_of_more = mistake.what.cause == TouchCause::clear || mistake.what.cause == TouchCause::pose;
     if (!is_of_more && !is_telling(mistake.without)) continue;  // what is left contradicts nothing
     const TouchAnswer found = solve_plain(mistake.without);
-    if (found.status != Status::complete || found.poses.empty()) continue;
+    if (mistake.what.cause == TouchCause::pose && problem.touches.size() == 1) {  // which fits anywhere without it
+      told.push_back(mistake.what);
+      continue;
+    }
+    if (found.status != Status::complete || found.poses.empty() || has_many_outliers(found)) continue;
     if (found.fit && found.fit->p < kExplains) continue;
     TouchDiagnosis what = mistake.what;
     if (found.fit) what.fit = *found.fit;

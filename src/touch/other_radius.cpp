@@ -163,6 +163,7 @@ std::optional<TouchFit> fit_with(const TouchAnswer& answer) {
 
 std::vector<TouchDiagnosis> other_radii(const TouchProblem& problem) {
   std::vector<TouchDiagnosis> told;
+  if (problem.touches.size() < 2) return told;
   const double stated = problem.finger ? problem.finger->disk()->radius : 0;
   const auto look = [&](double start, double reach) {
     const std::optional<FittedRadius> fitted = fitted_radius(problem, start, reach);

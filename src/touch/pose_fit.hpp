@@ -99,6 +99,7 @@ class PoseFit {
   /// What is known beforehand, and that a heading has no more than a turn to be in; and its squares alone.
   Normals prior_normals(const Pose& pose) const;
   double prior_square(const Pose& pose) const;
+  bool knows_heading() const { return prior_.has_value(); }
   Pose moved(const Pose& pose, const Eigen::Vector3d& step) const;
   /// Whether a nearest place is at a corner, or an end, so that it stays there when the pose moves a little.
   bool is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const;

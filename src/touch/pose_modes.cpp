@@ -108,16 +108,9 @@ std::vector<std::vector<std::size_t>> merged_groups(const CellSets& sets, const 
   return merged.sets();
 }
 
-}  // namespace
-
-std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior) {
-  const std::vector<PosteriorNode>& nodes = posterior.nodes;
-  std::vector<PoseMode> modes;
-  std::vector<std::size_t> mode_of(sets.groups.size());
-  for (std::vector<std::size_t>& groups : merged_groups(sets, posterior)) {
-    for (const std::size_t g : groups) mode_of[g] = modes.size();
-    modes.push_back({std::move(groups), {}, 0});
-  }
+/// The modes by their probabilities. `mode_of`: of each group.
+std::vector<PoseMode> with_nodes(std::vector<PoseMode> modes, const std::vector<std::size_t>& mode_of,
+                                 const std::vector<PosteriorNode>& nodes) {
   double most = kNever;
   for (const PosteriorNode& node : nodes) most = std::max(most, node.log_weight);
   double total = 0;
@@ -133,6 +126,27 @@ std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior)
   std::stable_sort(modes.begin(), modes.end(),
                    [](const PoseMode& a, const PoseMode& b) { return a.probability > b.probability; });
   return modes;
+}
+
+}  // namespace
+
+std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior) {
+  const std::vector<PosteriorNode>& nodes = posterior.nodes;
+  std::vector<PoseMode> modes;
+  std::vector<std::size_t> mode_of(sets.groups.size());
+  for (std::vector<std::size_t>& groups : merged_groups(sets, posterior)) {
+    for (const std::size_t g : groups) mode_of[g] = modes.size();
+    modes.push_back({std::move(groups), {}, 0});
+  }
+  return with_nodes(std::move(modes), mode_of, nodes);
+}
+
+std::vector<PoseMode> modes_of(const std::vector<PosteriorNode>& nodes) {
+  std::vector<std::size_t> mode_of;
+  for (const PosteriorNode& node : nodes) {
+    while (mode_of.size() <= node.group) mode_of.push_back(mode_of.size());
+  }
+  return with_nodes(std::vector<PoseMode>(mode_of.size()), mode_of, nodes);
 }
 
 Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {

@@ -49,6 +49,9 @@ Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_tou
 /// The modes, the most probable first.
 std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior);
 
+/// The same where each group of nodes is a mode, without cells.
+std::vector<PoseMode> modes_of(const std::vector<PosteriorNode>& nodes);
+
 /// The middle interval that holds this share of a mixture's weight.
 Interval middle_share(const std::vector<MixtureTerm>& terms, double share);
 

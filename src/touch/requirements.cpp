@@ -179,7 +179,6 @@ void require_valid(const TouchProblem& problem) {
   } else {
     require_tolerance(problem);
   }
-  if (problem.robust && problem.rolls.empty()) refuse("`robust` is about the rows of rolls, found none: leave it out");
   if (problem.robust && !problem.noise) refuse("`robust` is about noise: give `noise` as well");
   for (std::size_t k = 0; k < problem.rolls.size(); ++k) require_roll(problem, k);
   for (std::size_t k = 0; k < problem.touches.size(); ++k) require_touch(problem, k);

@@ -52,8 +52,8 @@ TouchPose pose_of(const RollContact& roll, const Placement& placement) {
     const auto k = static_cast<Eigen::Index>(i);
     pose.interval[i] = normal_interval(mean[i], pose.spread.covariance(k, k));
     pose.extent[i] = {mean[i], mean[i]};
+    pose.density[i] = {{1, mean[i], std::sqrt(pose.spread.covariance(k, k))}};
   }
-  pose.heading_density = {{1, mean[2], std::sqrt(pose.spread.covariance(2, 2))}};
   return pose;
 }
 

@@ -21,13 +21,23 @@ double of_line(double angle) {
   return half <= -0.5 * std::numbers::pi ? half + std::numbers::pi : half;
 }
 
+/// Without outliers.
+std::vector<TouchContact> counted_contacts(const TouchAnswer& answer, const TouchPose& pose) {
+  std::vector<TouchContact> contacts = pose.contacts;
+  for (auto k = pose.outliers.rbegin(); k != pose.outliers.rend(); ++k) {
+    contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(answer.rolls.size() + *k));
+  }
+  return contacts;
+}
+
 }  // namespace
 
 std::optional<Slide> slide_of(const TouchAnswer& answer, const TouchPose& pose) {
   if (!pose.continuum || pose.any_heading || pose.contacts.empty()) return std::nullopt;
   const Part& part = answer.part;
-  const double along = pose.contacts.front().tangent;
-  const bool are_parallel = std::all_of(pose.contacts.begin(), pose.contacts.end(), [&](const TouchContact& contact) {
+  const std::vector<TouchContact> contacts = counted_contacts(answer, pose);
+  const double along = contacts.front().tangent;
+  const bool are_parallel = std::all_of(contacts.begin(), contacts.end(), [&](const TouchContact& contact) {
     return std::abs(part.turning().at(contact.s).curvature) * part.perimeter() <= kStraight &&
            std::abs(of_line(contact.tangent - along)) <= kParallel;
   });
@@ -37,6 +47,7 @@ std::optional<Slide> slide_of(const TouchAnswer& answer, const TouchPose& pose) 
   const double by_x = range[0].width() / std::abs(std::cos(direction));
   const double by_y = range[1].width() / std::abs(std::sin(direction));
   const double by_extent = std::min(by_x, by_y);
+  if (!pose.outliers.empty()) return Slide{direction, by_extent};  // the other sides may let it go further
   return Slide{direction, std::min(by_extent, touch::slide_between_sides(answer, pose, direction).value_or(by_extent))};
 }
 

@@ -11,11 +11,13 @@
 #include "mirror_poses.hpp"
 #include "mistakes.hpp"
 #include "moved.hpp"
+#include "outlier_sets.hpp"
 #include "requirements.hpp"
 #include "roll_poses.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/touch.hpp"
+#include "touch_and_prior.hpp"
 #include "weighed_poses.hpp"
 #include "witnessed_poses.hpp"
 
@@ -85,6 +87,12 @@ void take_over(WeighedPoses weighed, const TouchProblem& problem, const AllConta
   if (weighed.log_evidence) answer.log_evidence = log_evidence_of(problem, contacts, *weighed.log_evidence);
 }
 
+void weigh_by_prior(const TouchProblem& problem, const AllContacts& contacts, TouchAnswer& answer) {
+  PoseFit fit(contacts.each, problem.pose);
+  FreeSpace free(problem, contacts.each);
+  take_over(weighed_by_prior({problem, fit, {}, free, answer.place}), problem, contacts, answer);
+}
+
 void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswer& answer) {
   const TouchPair pair = choose_pair(contacts.each);
   const std::size_t budget = problem.budget.value_or(kTouchBudget);
@@ -119,13 +127,17 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
 void conclude(TouchAnswer& answer) {
   Verdict& verdict = answer.verdict;
   const std::vector<TouchPose>& poses = answer.poses;
-  verdict.fits_badly = answer.fit && answer.fit->is_bad();
+  verdict.fits_badly |= (answer.fit && answer.fit->is_bad()) || has_many_outliers(answer);
   if (!answer.unresolved.empty()) {
     answer.status = Status::incomplete;
     verdict.name = Verdict::undecided;
     return;
   }
   if (poses.empty()) return;
+  if (answer.anywhere > 1 - kSure) {
+    verdict.name = Verdict::unobservable;
+    return;
+  }
   const bool is_sure = poses.size() == 1 || poses.front().probability >= kSure;
   const std::size_t places = is_sure ? 1 : poses.size();
   const auto stretches =
@@ -142,18 +154,22 @@ void conclude(TouchAnswer& answer) {
   }
 }
 
-/// `problem`: as it is seen, of a part that lies face down in the mirror.
-void solve_seen(const TouchProblem& problem, TouchAnswer& answer) {
+/// Every touch counts.
+void solve_counted(const TouchProblem& problem, TouchAnswer& answer) {
   AllContacts contacts(problem, answer.radius);
   for (const Measured& one : contacts.each) answer.tolerance.push_back({one.place_most, one.angle_most});
   add_rolls(problem, contacts.rolls, answer);
-  if (contacts.each.size() == 1 || are_at_one_place(contacts)) {
+  const bool is_one_touch = problem.touches.size() == 1 && problem.rolls.empty();
+  const bool by_prior = is_one_touch && contacts.each.front().has_place && knows_place(problem);
+  if ((contacts.each.size() == 1 || are_at_one_place(contacts)) && !by_prior) {
     take_alone(problem, contacts, answer);
     return;
   }
   answer.verdict.name = Verdict::inconsistent;
   if (contacts.one_fits_nowhere()) return;
-  if (!problem.noise && answer.place != PlaceKnown::measured) {
+  if (by_prior) {
+    weigh_by_prior(problem, contacts, answer);
+  } else if (!problem.noise && answer.place != PlaceKnown::measured) {
     search_headings(problem, contacts, answer);
   } else {
     search_poses(problem, contacts, answer);
@@ -161,6 +177,15 @@ void solve_seen(const TouchProblem& problem, TouchAnswer& answer) {
   if (!contacts.rolls.empty()) add_roll_ends(contacts.rolls, contacts.each, answer);
   conclude(answer);
   take_over_doubts(contacts.rolls, answer);
+}
+
+/// `problem`: as it is seen, of a part that lies face down in the mirror.
+void solve_seen(const TouchProblem& problem, TouchAnswer& answer) {
+  const bool may_have_outliers =
+      problem.robust && !problem.touches.empty() && problem.rolls.size() + problem.touches.size() > 1;
+  if (!may_have_outliers) return solve_counted(problem, answer);
+  solve_with_outliers(problem, solve_counted, answer);
+  conclude(answer);
 }
 
 }  // namespace

@@ -10,13 +10,12 @@
 #include "answer_poses.hpp"
 #include "outline/turn.hpp"
 #include "tilted_touch.hpp"
+#include "touch_and_prior.hpp"
 
 namespace rollfix::touch {
 namespace {
 
-// Sets of poses that are less probable are counted, not listed; ...
-constexpr double kLeastProbability = 1e-4;
-// ... and if they are as improbable as this, not even looked at.
+// Sets of poses that are as improbable as this are not even looked at.
 constexpr double kNegligible = 1e-8;
 // Probabilities nearer than this share of them are one but for rounding.
 constexpr double kAsProbable = 1e-6;
@@ -77,6 +76,7 @@ bool fits_better(const TouchFit& one, const TouchFit& other) {
 TouchPose weighed_pose(const Asked& asked, const PoseSet& set, const std::vector<PosteriorNode>& nodes) {
   const auto with = [&](const FittedPose& fitted) {
     TouchPose pose = described(asked.fit, fitted, set.cells, asked.pair);
+    if (set.cells.empty()) pose.extent = extent_of(set.mode, nodes, fitted.pose);
     add_posterior(pose, set.mode, nodes);
     return pose;
   };
@@ -92,12 +92,11 @@ void leave_out(const PoseMode& mode, WeighedPoses& result) {
 }
 
 /// Modes, each with the pose that fits best.
-std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, const Posterior& posterior,
-                                  WeighedPoses& result) {
-  const std::vector<PosteriorNode>& nodes = posterior.nodes;
+std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, std::vector<PoseMode> modes,
+                                  const std::vector<PosteriorNode>& nodes, WeighedPoses& result) {
   const auto by_square = [&](std::size_t a, std::size_t b) { return nodes[a].square < nodes[b].square; };
   std::vector<PoseSet> found;
-  for (PoseMode& mode : modes_of(sets, posterior)) {
+  for (PoseMode& mode : modes) {
     if (mode.probability < kNegligible) {
       leave_out(mode, result);
       continue;
@@ -108,7 +107,26 @@ std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, cons
   return found;
 }
 
-/// The most probable first; those that are as probable, as of a symmetric part, by their headings.
+/// Lists modes, and what all of them weigh.
+void add_modes(const Asked& asked, const CellSets& sets, std::vector<PoseMode> modes,
+               const std::vector<PosteriorNode>& nodes, WeighedPoses& result) {
+  result.log_evidence = log_total(nodes);
+  for (const PoseSet& set : sets_to_list(asked, sets, std::move(modes), nodes, result)) {
+    const bool is_listed = set.mode.probability >= kLeastProbability && worst_of(asked.fit, set.fitted) <= 1;
+    if (!is_listed) {
+      leave_out(set.mode, result);
+      continue;
+    }
+    TouchPose pose = weighed_pose(asked, set, nodes);
+    const TouchFit one = fit_of(asked, set.fitted, pose.continuum);
+    if (!result.fit || fits_better(one, *result.fit)) result.fit = one;
+    result.poses.push_back(std::move(pose));
+  }
+  put_in_order(result.poses);
+}
+
+}  // namespace
+
 void put_in_order(std::vector<TouchPose>& poses) {
   std::stable_sort(poses.begin(), poses.end(),
                    [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
@@ -121,14 +139,20 @@ void put_in_order(std::vector<TouchPose>& poses) {
   }
 }
 
-}  // namespace
-
 double length_in_reach(const CentrePath& path) {
   double length = 0;
   for (std::size_t k = 0; k < path.stretches().size(); ++k) {
     length += path.stretches()[k].u.width() * length_per_u(path, k);
   }
   return length;
+}
+
+WeighedPoses weighed_by_prior(const Asked& asked) {
+  std::vector<PosteriorNode> nodes = nodes_by_prior(asked);
+  asked.free.weigh(nodes);
+  WeighedPoses result;
+  add_modes(asked, {}, modes_of(nodes), nodes, result);
+  return result;
 }
 
 WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget) {
@@ -138,20 +162,8 @@ WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t
   result.is_too_long = posterior.is_too_long;
   if (result.is_too_long) return result;
   asked.free.weigh(posterior.nodes);
-  result.log_evidence = log_total(posterior.nodes);
   result.improbable = posterior.hopeless;
-  for (const PoseSet& set : sets_to_list(asked, sets, posterior, result)) {
-    const bool is_listed = set.mode.probability >= kLeastProbability && worst_of(asked.fit, set.fitted) <= 1;
-    if (!is_listed) {
-      leave_out(set.mode, result);
-      continue;
-    }
-    TouchPose pose = weighed_pose(asked, set, posterior.nodes);
-    const TouchFit one = fit_of(asked, set.fitted, pose.continuum);
-    if (!result.fit || fits_better(one, *result.fit)) result.fit = one;
-    result.poses.push_back(std::move(pose));
-  }
-  put_in_order(result.poses);
+  add_modes(asked, sets, modes_of(sets, posterior), posterior.nodes, result);
   return result;
 }
 

@@ -17,10 +17,19 @@ struct WeighedPoses {
   bool is_too_long = false;            // so many places that they were not weighed
 };
 
+// Sets of poses that are less probable are counted, not listed.
+inline constexpr double kLeastProbability = 1e-4;
+
+/// The most probable first; those that are as probable, as of a symmetric part, by their headings.
+void put_in_order(std::vector<TouchPose>& poses);
+
 /// The boundary's length as far as the finger gets to it, of a corner that of the finger's arc around it.
 double length_in_reach(const CentrePath& path);
 
 /// With noise: what is less probable than a bound is not looked at, and modes that end in one pose are one.
 WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget);
+
+/// By one touch and what is known of the pose beforehand.
+WeighedPoses weighed_by_prior(const Asked& asked);
 
 }  // namespace rollfix::touch

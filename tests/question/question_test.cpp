@@ -267,7 +267,6 @@ TEST(QuestionRefusals, OfTouchesNameWhatOnlyRollsHave) {
   EXPECT_EQ(refused(question, overlap), "`may_overlap`: " + why);
   EXPECT_EQ(refused(question, turn_round), "`direction`: " + why);
   EXPECT_EQ(refused(question, read_as_well), "`reading`: " + why);
-  EXPECT_EQ(refused(question, [](Question& asked) { asked.robust = true; }), "`robust`: " + why);
   EXPECT_EQ(refused(question, [](Question& asked) { asked.at = {1}; }), "`at`: " + why);
   EXPECT_THAT(refused(question, squeeze), StartsWith("`squeezed`: it is about a finger with skin and a wheel"));
   EXPECT_EQ(refused(question,

@@ -47,6 +47,20 @@ TEST(CliTouch, FiveCentresOfABallGiveTheWorkOffset) {
   EXPECT_EQ(document["contacts"].size(), 5U);
 }
 
+TEST(CliTouch, AnOutlierIsNamedByRobust) {
+  const std::string asked = "locate " + kBracket + " --touch 112.243,107.744 --touch 150,70 " + kFive + " --robust";
+  const Ran ran = run(asked + " --verbose");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("robust     any touch may be an outlier; most probably touch 2 (probability 1.0000)"));
+  EXPECT_THAT(ran.out, HasSubstr("2 (outlier)"));
+  const Json document = run(asked + " --json").json();
+  EXPECT_EQ(document["placements"][0]["outliers"], Json({1}));
+  EXPECT_EQ(document["placements"][0]["start"].size(), 7U);
+  EXPECT_EQ(document["outlier"].size(), 7U);
+  EXPECT_GT(document["outlier"][1].get<double>(), 0.999);
+  EXPECT_LT(document["anywhere"].get<double>(), 1e-6);
+}
+
 TEST(CliTouch, ATableSaysTheSame) {
   const Folder folder;
   folder.write("touches.csv", kTable);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/touch.hpp"
 #include "touch/touch_cases.hpp"
 

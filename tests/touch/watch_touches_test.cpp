@@ -130,11 +130,16 @@ TEST(WatchedTouches, end_with_an_exit_code) {
 TEST(WatchedTouches, have_no_use_for_what_is_of_rolls) {
   const cli::Folder folder;
   folder.write("touches.csv", kTable);
-  for (const char* option : {"--robust", "--prior 1,0.1", "--direction cw"}) {
+  for (const char* option : {"--prior 1,0.1", "--direction cw"}) {
     const cli::Ran ran = run("watch " + kOptions + "--once --log touches.csv " + option);
     EXPECT_EQ(ran.code, 2);
     EXPECT_THAT(ran.err, HasSubstr("which do not roll and have no use for it")) << option;
   }
+}
+
+TEST(WatchedTouches, may_be_outliers) {
+  const std::vector<Json> events = events_of(kTable, "touch", "--robust");
+  EXPECT_EQ(events.back()["placements"][0]["outliers"], Json::array());
 }
 
 TEST(WatchedTouches, are_of_one_part) {

@@ -62,8 +62,18 @@ struct Tally {
   }
 };
 
+/// Makes one touch an outlier: anywhere on a square as large as the perimeter.
+void put_anywhere(Case& one, const Part& part, std::mt19937_64& generator) {
+  std::vector<MeasuredTouch>& touches = one.problem.touches;
+  MeasuredTouch& outlier = touches[std::uniform_int_distribution<std::size_t>(0, touches.size() - 1)(generator)];
+  const double half = 0.5 * part.perimeter();
+  const double y = one.truth.y + uniform(generator, -half, half);
+  outlier.at = {one.truth.x + uniform(generator, -half, half), y};
+  if (outlier.normal) outlier.normal = uniform(generator, -std::numbers::pi, std::numbers::pi);
+}
+
 template <class PartOf>
-Tally tally(int count, const Making& shares, const PartOf& part_of) {
+Tally tally(int count, const Making& shares, const PartOf& part_of, bool has_outlier = false) {
   Tally result;
   for (int c = 0; c < count; ++c) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(c) + 5000);
@@ -72,8 +82,10 @@ Tally tally(int count, const Making& shares, const PartOf& part_of) {
     Making making = shares;
     making.radius *= size;
     making.place_sd *= size;
-    const Case one = random_case(part, making, generator);
+    Case one = random_case(part, making, generator);
+    if (has_outlier) put_anywhere(one, part, generator);
     TouchProblem problem = one.problem;
+    problem.robust = has_outlier;
     problem.diagnose = false;
     result.add(rollfix::solve(problem), one.truth);
   }
@@ -102,5 +114,15 @@ TEST(TouchCoverage, ThreeNormalsOnFlats) {
 }
 TEST(TouchCoverage, FivePlacesOnFlats) { tally(test_count(40), {5, 0, 0, 0.003, kDegree}, flat).expect_calibrated(); }
 TEST(TouchCoverage, FiveBallsOnFlats) { tally(test_count(40), {5, 0, 0.03, 0.002, kDegree}, flat).expect_calibrated(); }
+
+TEST(TouchCoverage, FiveNormalsOneAnOutlierOnSmoothParts) {
+  tally(test_count(40), {5, 5, 0, 0.003, 2 * kDegree}, smooth, true).expect_calibrated();
+}
+TEST(TouchCoverage, FourNormalsOneAnOutlierOnFlats) {
+  tally(test_count(40), {4, 4, 0, 0.003, 2 * kDegree}, flat, true).expect_calibrated();
+}
+TEST(TouchCoverage, SixBallsOneAnOutlierOnSmoothParts) {
+  tally(test_count(40), {6, 0, 0.04, 0.001, kDegree}, smooth, true).expect_calibrated();
+}
 
 }  // namespace touch_coverage_test

@@ -20,6 +20,8 @@ namespace {
 
 constexpr double kExact = 1e-6;  // of the tolerance
 constexpr double kAlike = 1e-3;
+// Touches that are outliers with this probability are told.
+constexpr double kMayBeOutlier = 0.1;
 // With no more measurements beyond the unknowns than this, one mistake in ten or more goes unnoticed.
 constexpr int kFewChecks = 3;
 
@@ -71,6 +73,7 @@ class TouchText {
                    ? "the touches leave the part free to move: touch a side with another direction\n"
                    : "next: one more touch, on a side with another direction\n";
       case Verdict::unobservable:
+        if (answer_.anywhere > 0 && answer_.touches.size() > 1) return open_line();
         if (answer_.touches.size() == 1) {
           return fmt::format("one touch fits all along the boundary: touch the part elsewhere{}\n",
                              answer_.touches.front().normal ? "; rollfix advise says where" : "");
@@ -87,6 +90,11 @@ class TouchText {
         break;
     }
     return "no pose of the part fits all touches\n";
+  }
+
+  /// With outliers.
+  std::string open_line() const {
+    return fmt::format("with probability {:.2g} no two touches count: touch once more\n", answer_.anywhere);
   }
 
   std::string advice_of_rolls() const {
@@ -183,6 +191,7 @@ class TouchText {
       case TouchCause::clear:
         return "the part is in the way of a path that is said to be clear: check --clear";
       case TouchCause::pose:
+        if (one.poses == 0) return "the touch contradicts --pose";
         return fmt::format("the touches contradict {}: without it the heading is {} deg",
                            answer_.pose && std::isfinite(answer_.pose->place_sd) ? "--pose" : "--heading",
                            degrees(one.pose.heading));
@@ -311,11 +320,12 @@ class TouchText {
     table.add_column("touch");
     for (const char* title : {"x", "y", "s", "off"}) table.add_column(title_in(title, unit_));
     table.add_column("normal off [deg]");
-    for (std::size_t k = 0; k < pose.contacts.size(); ++k) {
-      const TouchContact& contact = pose.contacts[k];
+    for (std::size_t k = 0; k < answer_.touches.size(); ++k) {
+      const TouchContact& contact = pose.contacts[answer_.rolls.size() + k];
       const MeasuredTouch& touch = answer_.touches[k];
       const bool has_place = touch.has_place();
-      table.add_row({std::to_string(k + 1), has_place ? place(touch.at.x()) : "-",
+      const bool is_outlier = std::binary_search(pose.outliers.begin(), pose.outliers.end(), k);
+      table.add_row({fmt::format("{}{}", k + 1, is_outlier ? " (outlier)" : ""), has_place ? place(touch.at.x()) : "-",
                      has_place ? place(touch.at.y()) : "-", place(contact.s), has_place ? rough(contact.distance) : "-",
                      contact.turn ? fmt::format("{:.2f}", *contact.turn / kDegree) : "-"});
     }
@@ -344,6 +354,21 @@ class TouchText {
     if (!answer_.rolls.empty() || answer_.fit->freedom > kFewChecks) return "";
     if (answer_.verdict.name != Verdict::unique) return "";
     return "; few checks: touch once more to be sure of radius, side and units";
+  }
+
+  /// Of touches that may be outliers: which of them probably are.
+  std::string outlier_line() const {
+    if (answer_.outlier.empty()) return "";
+    std::string probable;
+    double most = 0;
+    for (std::size_t k = 0; k < answer_.outlier.size(); ++k) {
+      most = std::max(most, answer_.outlier[k]);
+      if (answer_.outlier[k] < kMayBeOutlier) continue;
+      probable +=
+          fmt::format("{}touch {} (probability {})", probable.empty() ? "" : ", ", k + 1, share(answer_.outlier[k]));
+    }
+    if (probable.empty()) return fmt::format("robust     any touch may be an outlier; none is: at most {:.1g}\n", most);
+    return "robust     any touch may be an outlier; most probably " + probable + "\n";
   }
 
   std::string asked_lines() const {
@@ -383,6 +408,7 @@ class TouchText {
           fmt::format("tolerance  {:.6g}{}{}\n", answer_.tolerance.front().length, behind(unit_),
                       with_normal > 0 ? fmt::format(", {:.6g} deg", answer_.tolerance.front().angle / kDegree) : "");
     }
+    text += outlier_line();
     if (answer_.fit && answer_.fit->freedom > 0) {
       text += fmt::format("fit        chi-square {:.3g} where {} is expected, p = {:.2g}{}\n", answer_.fit->chi_square,
                           answer_.fit->freedom, answer_.fit->p, few_checks());

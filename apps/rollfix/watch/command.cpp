@@ -200,7 +200,6 @@ std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, 
     if (given) options.no_use_for.emplace_back(option);
   };
   refuse(!arguments.prior.empty(), "--prior");
-  refuse(arguments.robust, "--robust");
   refuse(arguments.again, "--again");
   refuse(!arguments.direction.empty(), "--direction");
   refuse(!arguments.reading.wrapped.empty(), "--wrapped");
@@ -210,6 +209,7 @@ std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, 
   options.problem.noise = watch.noise;
   options.problem.pose = watch.pose;
   options.problem.mirrored = arguments.mirror;
+  options.problem.robust = arguments.robust;
   if (!watch.fingers.empty()) options.problem.finger = watch.fingers.front();
   return options;
 }

@@ -1,0 +1,251 @@
+#include "outlier_sets.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/binomial.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "belief/posterior.hpp"
+#include "measured.hpp"
+#include "pose_mixture.hpp"
+
+// Notation:
+//   S        a set of touches that are outliers; the other touches count, and all rolls
+//   e        probability of a touch to be an outlier: belief::kOutlierShare
+//   c_k      density of a touch that is nowhere off: of its place 1 / (2 pi sd^2), of its normal 1 / (sqrt(2 pi) sd)
+//   q_k      density of an outlier: of its place 1 / P^2, of its normal 1 / (2 pi)
+//   Z(S)     likelihood of what counts, averaged over where it can be on the part, summed over poses (x, y, heading);
+//            `log_evidence` is its logarithm less that of (2 pi)^(3/2) and of all c_k
+//   w(S)     (e / (1 - e))^|S| Z(S) prod_S q_k / c_k: the probability of S, but for one factor
+// The mixture of docs/touch.md, "Outliers". Sets are looked at by their size, as the larger ones are the less probable.
+namespace rollfix::touch {
+namespace {
+
+// Larger sets are not looked at where all of one size have no more than this share: the next ones have about half its
+// square, ...
+constexpr double kNegligibleSize = 0.03;
+// ... nor where chance makes so many outliers no more often than this, ...
+constexpr double kLeastChance = 1e-4;
+// ... nor beyond so many sets in all: 31 touches, two of which are outliers.
+constexpr double kMostSets = 500;
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+/// Probability that at least so many of `all` touches are outliers.
+double chance_of(std::size_t outliers, std::size_t all) {
+  if (outliers == 0) return 1;
+  if (outliers > all) return 0;
+  return boost::math::ibeta(static_cast<double>(outliers), static_cast<double>(all - outliers + 1),
+                            belief::kOutlierShare);
+}
+
+/// As many as there is any chance of.
+std::size_t most_outliers(std::size_t touches) {
+  std::size_t most = 0;
+  while (most < touches && chance_of(most + 1, touches) > kLeastChance) ++most;
+  return most;
+}
+
+/// The next choice of as many of `count` things, in the order of their numbers; false after the last one.
+bool choose_next(std::vector<std::size_t>& chosen, std::size_t count) {
+  for (std::size_t k = chosen.size(); k-- > 0;) {
+    if (chosen[k] == count - chosen.size() + k) continue;
+    ++chosen[k];
+    for (std::size_t next = k + 1; next < chosen.size(); ++next) chosen[next] = chosen[next - 1] + 1;
+    return true;
+  }
+  return false;
+}
+
+double log_sum(double a, double b) {
+  const double more = std::max(a, b);
+  return std::isinf(more) ? more : more + std::log1p(std::exp(std::min(a, b) - more));
+}
+
+/// log(1 / c_k), and log q_k.
+double log_width(const Measured& touch) {
+  return (touch.has_place ? std::log(2 * std::numbers::pi) + 2 * std::log(touch.place_unit) : 0) +
+         (touch.tangent ? 0.5 * std::log(2 * std::numbers::pi) + std::log(touch.angle_unit) : 0);
+}
+
+double log_of_outlier(const Measured& touch, double perimeter) {
+  return -(touch.has_place ? 2 * std::log(perimeter) : 0) - (touch.tangent ? std::log(2 * std::numbers::pi) : 0);
+}
+
+class OutlierSets {
+ public:
+  OutlierSets(const TouchProblem& problem, const SolveCounted& solve_counted, TouchAnswer& answer)
+      : problem_(problem), solve_counted_(solve_counted), answer_(answer), touches_(measured(problem)) {}
+
+  void solve() {
+    const std::size_t count = touches_.size();
+    answer_.verdict.name = Verdict::inconsistent;
+    bool is_settled = false;
+    std::size_t size = 0;
+    for (std::size_t left = most_outliers(count) + 1; left > 0 && !is_settled; --left, ++size) {
+      if (looked_at_ +
+              boost::math::binomial_coefficient<double>(static_cast<unsigned>(count), static_cast<unsigned>(size)) >
+          kMostSets) {
+        answer_.most_outliers = size - 1;
+        break;
+      }
+      const double of_size = add_sets(size);
+      if (size == 0 && std::isfinite(log_anywhere_)) return leave_open();
+      is_settled = of_size <= log_total_ + std::log(kNegligibleSize) && leader_fits();
+    }
+    if (answer_.most_outliers && !leader_fits()) leave_undecided();
+    finish();
+  }
+
+ private:
+  /// All sets of a size; the logarithm of their weights together.
+  double add_sets(std::size_t size) {
+    std::vector<std::size_t> outliers(size);
+    for (std::size_t k = 0; k < size; ++k) outliers[k] = k;
+    double log_weights = kNone;
+    do {
+      log_weights = log_sum(log_weights, add(outliers));
+    } while (choose_next(outliers, touches_.size()));
+    log_total_ = log_sum(log_total_, log_weights);
+    return log_weights;
+  }
+
+  double add(const std::vector<std::size_t>& outliers) {
+    ++looked_at_;
+    double log_weight = 0;
+    for (const std::size_t k : outliers) {
+      log_weight += std::log(belief::kOutlierShare / (1 - belief::kOutlierShare)) +
+                    log_of_outlier(touches_[k], problem_.part.perimeter()) + log_width(touches_[k]);
+    }
+    TouchAnswer counted = without(outliers);
+    const bool is_open = counted.verdict.name == Verdict::unobservable && counted.poses.empty();
+    log_weight += is_open                            ? log_evidence_anywhere(outliers)
+                  : std::isnan(counted.log_evidence) ? kNone
+                                                     : counted.log_evidence;
+    if (outliers.empty()) take_facts(counted);
+    take_unresolved(outliers, counted);
+    if (!std::isfinite(log_weight)) return kNone;
+    log_anywhere_ = is_open ? log_sum(log_anywhere_, log_weight) : log_anywhere_;
+    log_outlier_.resize(touches_.size(), kNone);
+    for (const std::size_t k : outliers) log_outlier_[k] = log_sum(log_outlier_[k], log_weight);
+    if (is_open) return log_weight;
+    if (log_weight > log_leader_) {
+      log_leader_ = log_weight;
+      answer_.fit = counted.fit;
+      answer_.verdict.fits_badly = counted.verdict.fits_badly;
+      answer_.improbable = counted.improbable;
+    }
+    mixture_.add(std::move(counted.poses), outliers, log_weight);
+    return log_weight;
+  }
+
+  /// The answer by all touches but these.
+  TouchAnswer without(const std::vector<std::size_t>& outliers) const {
+    TouchProblem counted = problem_;
+    counted.touches.clear();
+    for (std::size_t k = 0; k < problem_.touches.size(); ++k) {
+      if (!std::binary_search(outliers.begin(), outliers.end(), k)) counted.touches.push_back(problem_.touches[k]);
+    }
+    TouchAnswer answer{problem_.part, counted.touches};
+    answer.radius = answer_.radius;
+    answer.noise = problem_.noise;
+    const bool has_place =
+        !problem_.rolls.empty() || std::any_of(counted.touches.begin(), counted.touches.end(),
+                                               [](const MeasuredTouch& touch) { return touch.has_place(); });
+    answer.verdict.name = Verdict::unobservable;
+    if (has_place) solve_counted_(counted, answer);
+    return answer;
+  }
+
+  /// Of touches that leave the pose open: one, or several at one place, which agree at best.
+  double log_evidence_anywhere(const std::vector<std::size_t>& outliers) const {
+    const double perimeter = problem_.part.perimeter();
+    double log_evidence = -1.5 * std::log(2 * std::numbers::pi);
+    bool has_place = false, has_normal = false;
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      if (std::binary_search(outliers.begin(), outliers.end(), k)) continue;
+      const Measured& touch = touches_[k];
+      if (has_place) log_evidence -= std::log(perimeter * touch.place_unit * std::sqrt(4 * std::numbers::pi));
+      log_evidence += log_width(touch);
+      has_place |= touch.has_place;
+      has_normal |= touch.tangent.has_value();
+    }
+    const double turn = std::log(2 * std::numbers::pi);
+    const std::optional<PosePrior>& prior = problem_.pose;
+    if (!has_place) {
+      const bool is_known = prior && std::isfinite(prior->place_sd);
+      log_evidence += is_known ? turn + 2 * std::log(prior->place_sd) : 2 * std::log(perimeter);
+    }
+    if (!has_normal) log_evidence += prior ? 0.5 * turn + std::log(prior->heading_sd) : turn;
+    return log_evidence;
+  }
+
+  /// All touches leave the pose open, outliers or not.
+  void leave_open() {
+    answer_.verdict.name = Verdict::unobservable;
+    answer_.log_evidence = 0;  // the same on any part
+  }
+
+  void take_facts(const TouchAnswer& counted) {
+    answer_.tolerance = counted.tolerance;
+    answer_.rolls = counted.rolls;
+    answer_.place = counted.place;
+  }
+
+  /// Arcs that were not decided, of the first set that has some.
+  void take_unresolved(const std::vector<std::size_t>& outliers, const TouchAnswer& counted) {
+    answer_.comparisons += counted.comparisons;
+    if (counted.status == Status::complete || !answer_.unresolved.empty()) return;
+    answer_.unresolved = counted.unresolved;
+    answer_.unresolved_touch = counted.unresolved_touch;
+    for (const std::size_t k : outliers) {
+      if (problem_.rolls.size() + k <= answer_.unresolved_touch) ++answer_.unresolved_touch;
+    }
+  }
+
+  bool leader_fits() const {
+    return std::isfinite(log_leader_) && !answer_.verdict.fits_badly && !(answer_.fit && answer_.fit->is_bad());
+  }
+
+  void leave_undecided() {
+    if (!answer_.unresolved.empty()) return;
+    answer_.unresolved = {{0, problem_.part.perimeter()}};
+    answer_.unresolved_touch = 0;
+  }
+
+  void finish() {
+    answer_.log_evidence = log_total_ + static_cast<double>(touches_.size()) * std::log(1 - belief::kOutlierShare);
+    answer_.anywhere = std::exp(log_anywhere_ - log_total_);
+    for (const double one : log_outlier_) answer_.outlier.push_back(std::exp(one - log_total_));
+    mixture_.finish(problem_, log_total_, answer_);
+  }
+
+  const TouchProblem& problem_;
+  const SolveCounted& solve_counted_;
+  TouchAnswer& answer_;
+  std::vector<Measured> touches_;
+  PoseMixture mixture_;
+  double looked_at_ = 0;
+  double log_total_ = kNone;
+  double log_anywhere_ = kNone;
+  double log_leader_ = kNone;
+  std::vector<double> log_outlier_;
+};
+
+}  // namespace
+
+void solve_with_outliers(const TouchProblem& problem, const SolveCounted& solve_counted, TouchAnswer& answer) {
+  OutlierSets(problem, solve_counted, answer).solve();
+}
+
+bool has_many_outliers(const TouchAnswer& answer) {
+  if (answer.poses.empty()) return false;
+  return chance_of(answer.poses.front().outliers.size(), answer.touches.size()) < TouchFit::kLeastP;
+}
+
+}  // namespace rollfix::touch
