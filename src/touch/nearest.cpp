@@ -83,7 +83,7 @@ Distance distance_at(const CentrePoint& point, const InPart& touch) {
   if (touch.has_place) {
     const Vec2 off = (touch.at - point.centre) / touch.place_unit;
     const Vec2 along = point.along / touch.place_unit;
-    distance = {off.squaredNorm(), off.dot(along), along.squaredNorm()};
+    distance = {off.squaredNorm(), off.dot(along), along.squaredNorm(), -point.bend * cross(along, off)};
   }
   if (touch.tangent) {
     const double angle = nearest_angle(*touch.tangent - point.angle) / touch.angle_unit;
@@ -117,7 +117,8 @@ OnPath downhill(const CentrePath& path, const InPart& touch, OnPath from) {
     shortened = 1;
     const double u = from.place.u;
     const bool is_still = here.weight == 0;
-    const double move = is_still ? 0 : here.slope / here.weight;
+    const double curved = here.weight + here.bend;
+    const double move = is_still ? 0 : here.slope / (curved > 0.25 * here.weight ? curved : here.weight);
     const double to = std::clamp(u + move, stretch.u.lo, stretch.u.hi);
     const bool at_lo = to == stretch.u.lo && u == to && (move < 0 || is_still);
     const bool at_hi = to == stretch.u.hi && u == to && (move > 0 || is_still);

@@ -22,7 +22,8 @@ struct InPart {
 struct Distance {
   double square = 0;
   double slope = 0;   // half the derivative of it, with its sign: above 0 where it falls with u
-  double weight = 0;  // half the second derivative, but for what the path's bends add to it
+  double weight = 0;  // half the second derivative, but for ...
+  double bend = 0;    // ... what the path's bends add to it, if they are those of a circle
 };
 Distance distance_at(const CentrePoint& point, const InPart& touch);
 

@@ -75,14 +75,9 @@ Normals normals_at(const PartFrame& frame, const InPart& touch, const CentrePoin
 /// A pose, where each contact is then, and the sum of squares.
 struct PoseFit::State {
   Pose pose;
+  PartFrame frame;
   std::vector<OnPath> contacts;
   double square = 0;
-};
-
-/// A touch as a pose has it.
-struct PoseFit::Seen {
-  PartFrame frame;
-  InPart touch;
 };
 
 PoseFit::PoseFit(const std::vector<Measured>& touches, const std::optional<PosePrior>& prior)
@@ -107,18 +102,18 @@ PartFrame PoseFit::frame(const Pose& pose) const {
   return frame;
 }
 
-PoseFit::Seen PoseFit::seen(const Pose& pose, std::size_t touch) const {
+InPart PoseFit::in_part(const Pose& pose, const PartFrame& frame, std::size_t touch) const {
   const Measured& one = touches_[touch];
-  Seen result{frame(pose), {}};
-  result.touch.at = result.frame.in_part(one.at - Vec2(pose.x, pose.y));
-  if (one.tangent) result.touch.tangent = *one.tangent - pose.heading;
-  result.touch.has_place = one.has_place;
-  result.touch.place_unit = one.place_unit;
-  result.touch.angle_unit = one.angle_unit;
+  InPart result;
+  result.at = frame.in_part(one.at - Vec2(pose.x, pose.y));
+  if (one.tangent) result.tangent = *one.tangent - pose.heading;
+  result.has_place = one.has_place;
+  result.place_unit = one.place_unit;
+  result.angle_unit = one.angle_unit;
   return result;
 }
 
-InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const { return seen(pose, touch).touch; }
+InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const { return in_part(pose, frame(pose), touch); }
 
 bool PoseFit::is_pinned_at(const PathPlace& place, std::size_t touch, const Distance& distance) const {
   if (distance.weight == 0) return true;
@@ -158,27 +153,24 @@ double PoseFit::square_at(const Pose& pose, std::size_t touch, const PathPlace& 
 
 Normals PoseFit::held_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const {
   if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(place), about_, false);
-  const Seen one = seen(pose, touch);
-  return normals_at(one.frame, one.touch, path(touch).at(place));
+  const PartFrame by = frame(pose);
+  return normals_at(by, in_part(pose, by, touch), path(touch).at(place));
 }
 
-Normals PoseFit::free_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const {
-  return free_normals(pose, touch, on_path(place, touch));
-}
-
-Normals PoseFit::free_normals(const Pose& pose, std::size_t touch, const OnPath& at) const {
-  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(at.place), about_, true);
-  const Seen one = seen(pose, touch);
-  Normals normals = normals_at(one.frame, one.touch, at.point);
-  if (is_pinned_at(at.place, touch, distance_at(at.point, one.touch))) return normals;
-  const Mixed mixed = mixed_at(one.frame, one.touch, at.point);
+Normals PoseFit::free_normals(const State& state, std::size_t touch) const {
+  const OnPath& at = state.contacts[touch];
+  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(state.pose, roll->at(at.place), about_, true);
+  const InPart one = in_part(state.pose, state.frame, touch);
+  Normals normals = normals_at(state.frame, one, at.point);
+  if (is_pinned_at(at.place, touch, distance_at(at.point, one))) return normals;
+  const Mixed mixed = mixed_at(state.frame, one, at.point);
   normals.matrix -= mixed.by_pose * mixed.by_pose.transpose() / mixed.weight;
   return normals;
 }
 
 ByPlace PoseFit::by_place(const FittedPose& fitted, const Held& held) const {
-  const Seen one = seen(fitted.pose, held.touch);
-  const Mixed mixed = mixed_at(one.frame, one.touch, path(held.touch).at(held.place));
+  const PartFrame by = frame(fitted.pose);
+  const Mixed mixed = mixed_at(by, in_part(fitted.pose, by, held.touch), path(held.touch).at(held.place));
   ByPlace result;
   result.pose = -fitted.information.ldlt().solve(mixed.by_pose);
   result.own_information = mixed.weight;
@@ -240,10 +232,12 @@ Eigen::Matrix3d PoseFit::at_origin(const Pose& pose, const Eigen::Matrix3d& cova
   return by * covariance * by.transpose();
 }
 
-/// Each contact to its nearest place in the state's pose, and the squares there.
-void PoseFit::go_downhill(State& state, const std::optional<Held>& held) const {
+/// Each contact to its nearest place in the state's pose, and the squares there; not all of them where they exceed
+/// `most`.
+void PoseFit::go_downhill(State& state, const std::optional<Held>& held, double most) const {
+  state.frame = frame(state.pose);
   state.square = prior_square(state.pose);
-  for (std::size_t k = 0; k < touches_.size(); ++k) {
+  for (std::size_t k = 0; k < touches_.size() && state.square <= most; ++k) {
     const bool is_held = held && held->touch == k;
     OnPath& at = state.contacts[k];
     if (const RollBelief* roll = touches_[k].roll) {
@@ -251,7 +245,7 @@ void PoseFit::go_downhill(State& state, const std::optional<Held>& held) const {
       state.square += roll->square(state.pose, roll->at(at.place), !is_held);
       continue;
     }
-    const InPart touch = in_part(state.pose, k);
+    const InPart touch = in_part(state.pose, state.frame, k);
     if (!is_held) at = downhill(path(k), touch, at);
     state.square += distance_at(at.point, touch).square;
   }
@@ -261,8 +255,7 @@ Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held)
   Normals sum = prior_normals(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
-    const Normals one =
-        is_held ? held_normals(state.pose, k, state.contacts[k].place) : free_normals(state.pose, k, state.contacts[k]);
+    const Normals one = is_held ? held_normals(state.pose, k, state.contacts[k].place) : free_normals(state, k);
     sum.matrix += one.matrix;
     sum.slope += one.slope;
   }
@@ -278,16 +271,19 @@ void PoseFit::descend(State& state, const std::optional<Held>& held) const {
     Eigen::Matrix3d matrix = normals.matrix;
     matrix.diagonal() *= 1 + damping;
     next = state;
-    next.pose = moved(state.pose, matrix.ldlt().solve(normals.slope));
-    go_downhill(next, held);
+    const Eigen::Vector3d step = matrix.ldlt().solve(normals.slope);
+    const bool is_last = step.dot(normals.slope) <= kSettled * (1 + state.square);  // but for rounding, and bends
+    next.pose = moved(state.pose, step);
+    go_downhill(next, held, state.square);
     if (!(next.square <= state.square)) {
+      if (is_last) break;
       damping *= 10;
       continue;
     }
     const double gain = state.square - next.square;
     std::swap(state, next);
     damping = std::max(0.1 * damping, 1e-12);
-    if (gain <= kSettled * (1 + state.square)) break;
+    if (is_last || gain <= kSettled * (1 + state.square)) break;
     normals = normals_of(state, held);
   }
 }
@@ -326,7 +322,7 @@ FittedPose PoseFit::settled(State state, const std::optional<Held>& held) const 
 }
 
 FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
-  State state{pose, {}, prior_square(pose)};
+  State state{pose, frame(pose), {}, prior_square(pose)};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     state.contacts.push_back(on_path(places[k], k));
     state.square += square_at(pose, k, places[k], false);
@@ -337,7 +333,7 @@ FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
 
 FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held) {
   beat();
-  State state{from, {}, 0};
+  State state{from, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
     state.contacts.push_back(is_held ? on_path(held->place, k) : nearest_to(from, k));
@@ -347,7 +343,7 @@ FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held) {
 
 FittedPose PoseFit::fit(const FittedPose& from, const std::optional<Held>& held) {
   beat();
-  State state{from.pose, {}, 0};
+  State state{from.pose, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
     state.contacts.push_back(on_path(is_held ? held->place : from.places[k], k));

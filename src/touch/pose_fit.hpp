@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -89,9 +90,8 @@ class PoseFit {
   PathPlace downhill_from(const PathPlace& place, const Pose& pose, std::size_t touch) const;
   /// What a contact there adds to the sum of squares.
   double square_at(const Pose& pose, std::size_t touch, const PathPlace& place, bool is_held) const;
-  /// Its share of the normal equations, held there, and free to move.
+  /// Its share of the normal equations, held there.
   Normals held_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const;
-  Normals free_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const;
   /// REQUIRES a pose that was fitted with the touch held there, and that it is no roll.
   ByPlace by_place(const FittedPose& fitted, const Held& held) const;
   /// How far, in their units, a small step of the pose moves the touches in the part's frame, at the most.
@@ -110,17 +110,18 @@ class PoseFit {
 
  private:
   struct State;
-  struct Seen;
-  Seen seen(const Pose& pose, std::size_t touch) const;
+  InPart in_part(const Pose& pose, const PartFrame& frame, std::size_t touch) const;
   OnPath on_path(const PathPlace& place, std::size_t touch) const;
   OnPath nearest_to(const Pose& pose, std::size_t touch) const;
-  Normals free_normals(const Pose& pose, std::size_t touch, const OnPath& at) const;
+  Normals free_normals(const State& state, std::size_t touch) const;
   bool is_pinned_at(const PathPlace& place, std::size_t touch, const Distance& distance) const;
-  void go_downhill(State& state, const std::optional<Held>& held) const;
+  void go_downhill(State& state, const std::optional<Held>& held, double most = kAnySquare) const;
   Normals normals_of(const State& state, const std::optional<Held>& held) const;
   void descend(State& state, const std::optional<Held>& held) const;
   bool jump_nearer(State& state, const std::optional<Held>& held) const;
   FittedPose settled(State state, const std::optional<Held>& held) const;
+
+  static constexpr double kAnySquare = std::numeric_limits<double>::infinity();
 
   const std::vector<Measured>& touches_;
   std::optional<PosePrior> prior_;
