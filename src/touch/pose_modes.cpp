@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -15,6 +17,7 @@ constexpr double kValley = 6;
 // A normal distribution is within this many standard deviations, and a quantile is found to this share of all of them.
 constexpr double kAllOfTerm = 9;
 constexpr double kQuantileShare = 1e-11;
+constexpr std::uintmax_t kMostIterations = 200;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 using Links = std::vector<std::vector<std::size_t>>;
@@ -169,12 +172,16 @@ Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {
     return sum / total;
   };
   const double close = kQuantileShare * (most - least);
+  const auto is_close = [&](double lo, double hi) {
+    const double middle = 0.5 * (lo + hi);
+    return !(hi - lo > close && lo < middle && middle < hi);
+  };
   const auto quantile = [&](double wanted) {
-    double lo = least, hi = most;
-    while (hi - lo > close && lo < 0.5 * (lo + hi) && 0.5 * (lo + hi) < hi) {
-      const double middle = 0.5 * (lo + hi);
-      (below(middle) < wanted ? lo : hi) = middle;
-    }
+    if (is_close(least, most)) return 0.5 * (least + most);
+    std::uintmax_t iterations = kMostIterations;
+    const auto off = [&](double value) { return below(value) - wanted; };
+    const auto [lo, hi] =
+        boost::math::tools::toms748_solve(off, least, most, -wanted, 1 - wanted, is_close, iterations);
     return 0.5 * (lo + hi);
   };
   return {quantile(0.5 - 0.5 * share), quantile(0.5 + 0.5 * share)};
