@@ -157,12 +157,15 @@ Normals PoseFit::held_normals(const Pose& pose, std::size_t touch, const PathPla
   return normals_at(by, in_part(pose, by, touch), path(touch).at(place));
 }
 
-Normals PoseFit::free_normals(const State& state, std::size_t touch) const {
+/// A touch's share of the normal equations, held where it is, or free to move.
+Normals PoseFit::share_of(std::size_t touch, const State& state, bool is_held) const {
   const OnPath& at = state.contacts[touch];
-  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(state.pose, roll->at(at.place), about_, true);
+  if (const RollBelief* roll = touches_[touch].roll) {
+    return roll->normals(state.pose, roll->at(at.place), about_, !is_held);
+  }
   const InPart one = in_part(state.pose, state.frame, touch);
   Normals normals = normals_at(state.frame, one, at.point);
-  if (is_pinned_at(at.place, touch, distance_at(at.point, one))) return normals;
+  if (is_held || is_pinned_at(at.place, touch, distance_at(at.point, one))) return normals;
   const Mixed mixed = mixed_at(state.frame, one, at.point);
   normals.matrix -= mixed.by_pose * mixed.by_pose.transpose() / mixed.weight;
   return normals;
@@ -254,15 +257,15 @@ void PoseFit::go_downhill(State& state, const std::optional<Held>& held, double 
 Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held) const {
   Normals sum = prior_normals(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    const bool is_held = held && held->touch == k;
-    const Normals one = is_held ? held_normals(state.pose, k, state.contacts[k].place) : free_normals(state, k);
+    const Normals one = share_of(k, state, held && held->touch == k);
     sum.matrix += one.matrix;
     sum.slope += one.slope;
   }
   return sum;
 }
 
-void PoseFit::descend(State& state, const std::optional<Held>& held) const {
+/// false: it ends at a pose that is known to lead to nothing new.
+bool PoseFit::descend(State& state, const std::optional<Held>& held, const IsKnown& is_known) const {
   go_downhill(state, held);
   State next;
   double damping = 1e-6;
@@ -284,8 +287,10 @@ void PoseFit::descend(State& state, const std::optional<Held>& held) const {
     std::swap(state, next);
     damping = std::max(0.1 * damping, 1e-12);
     if (is_last || gain <= kSettled * (1 + state.square)) break;
+    if (is_known && is_known(state.pose, state.square)) return false;
     normals = normals_of(state, held);
   }
+  return true;
 }
 
 /// Whether another touch is nearer to another place than where going downhill has led it.
@@ -310,9 +315,11 @@ bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) const {
   return jumped;
 }
 
-FittedPose PoseFit::settled(State state, const std::optional<Held>& held) const {
+std::optional<FittedPose> PoseFit::settled(State state, const std::optional<Held>& held,
+                                           const IsKnown& is_known) const {
+  beat();
   for (int jump = 0; jump < kMostJumps; ++jump) {
-    descend(state, held);
+    if (!descend(state, held, is_known)) return std::nullopt;
     if (!jump_nearer(state, held)) break;
   }
   state.pose.heading = nearest_angle(state.pose.heading);
@@ -331,24 +338,31 @@ FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
   return {state.pose, std::move(places), state.square, normals_of(state, {}).matrix};
 }
 
-FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held) {
-  beat();
+PoseFit::State PoseFit::start(const Pose& from, const std::optional<Held>& held) const {
   State state{from, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
     state.contacts.push_back(is_held ? on_path(held->place, k) : nearest_to(from, k));
   }
-  return settled(std::move(state), held);
+  return state;
+}
+
+FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held) {
+  return *settled(start(from, held), held, {});
+}
+
+std::optional<FittedPose> PoseFit::fit_unless(const IsKnown& is_known, const Pose& from,
+                                              const std::optional<Held>& held) {
+  return settled(start(from, held), held, is_known);
 }
 
 FittedPose PoseFit::fit(const FittedPose& from, const std::optional<Held>& held) {
-  beat();
   State state{from.pose, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
     state.contacts.push_back(on_path(is_held ? held->place : from.places[k], k));
   }
-  return settled(std::move(state), held);
+  return *settled(std::move(state), held, {});
 }
 
 }  // namespace rollfix::touch

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -76,6 +77,10 @@ class PoseFit {
   /// The same from a pose whose contacts are known, if a little off.
   FittedPose fit(const FittedPose& from, const std::optional<Held>& held = {});
 
+  /// The same, but none where a pose on the way, with its sum of squares, is known to lead to nothing new.
+  using IsKnown = std::function<bool(const Pose&, double)>;
+  std::optional<FittedPose> fit_unless(const IsKnown& is_known, const Pose& from, const std::optional<Held>& held);
+
   /// A pose with the contacts at these places, as it is.
   FittedPose at(const Pose& pose, std::vector<PathPlace> places) const;
 
@@ -113,13 +118,14 @@ class PoseFit {
   InPart in_part(const Pose& pose, const PartFrame& frame, std::size_t touch) const;
   OnPath on_path(const PathPlace& place, std::size_t touch) const;
   OnPath nearest_to(const Pose& pose, std::size_t touch) const;
-  Normals free_normals(const State& state, std::size_t touch) const;
+  Normals share_of(std::size_t touch, const State& state, bool is_held) const;
   bool is_pinned_at(const PathPlace& place, std::size_t touch, const Distance& distance) const;
   void go_downhill(State& state, const std::optional<Held>& held, double most = kAnySquare) const;
   Normals normals_of(const State& state, const std::optional<Held>& held) const;
-  void descend(State& state, const std::optional<Held>& held) const;
+  State start(const Pose& from, const std::optional<Held>& held) const;
+  bool descend(State& state, const std::optional<Held>& held, const IsKnown& is_known) const;
   bool jump_nearer(State& state, const std::optional<Held>& held) const;
-  FittedPose settled(State state, const std::optional<Held>& held) const;
+  std::optional<FittedPose> settled(State state, const std::optional<Held>& held, const IsKnown& is_known) const;
 
   static constexpr double kAnySquare = std::numeric_limits<double>::infinity();
 

@@ -41,6 +41,8 @@ constexpr int kMostStarts = 9;
 constexpr std::size_t kFewCells = 4;
 // Two best poses at one place that are nearer, in standard deviations, are one.
 constexpr double kSamePose = 0.2;
+// A fit that is as near to a known pose, with squares that are what the information says but for this, ends there.
+constexpr double kSameSquare = 0.002;
 // Newton's steps from the best pose to the mode of the tilted likelihood; one worth less than this, half the square of
 // standard deviations, is taken along without another look.
 constexpr int kMostTilts = 4;
@@ -148,19 +150,32 @@ bool is_about(const PosteriorNode& node, const Pose& mode) {
   return apart.dot(node.covariance.inverse() * apart) <= kSamePose * kSamePose;
 }
 
-/// Which of those that are known at the place a pose is; the end if it is none.
-std::vector<KnownPose>::const_iterator find_known(const PoseFit& fit, const FittedPose& found,
-                                                  const std::vector<KnownPose>& known) {
-  return std::find_if(known.begin(), known.end(), [&](const KnownPose& one) {
-    const Pose& pose = one.fitted.pose;
-    Eigen::Vector3d apart(0, 0, nearest_angle(pose.heading - found.pose.heading));
-    const Pose turned = fit.moved(found.pose, apart);  // about the same point as the information
-    apart.head<2>() = Vec2(pose.x - turned.x, pose.y - turned.y);
-    return apart.dot(found.information * apart) <= kSamePose * kSamePose;
-  });
+/// How far one pose is from another: the square of it in standard deviations, by this information.
+double square_apart(const PoseFit& fit, const Pose& one, const Pose& other, const Eigen::Matrix3d& information) {
+  Eigen::Vector3d apart(0, 0, nearest_angle(one.heading - other.heading));
+  const Pose turned = fit.moved(other, apart);  // about the same point as the information
+  apart.head<2>() = Vec2(one.x - turned.x, one.y - turned.y);
+  return apart.dot(information * apart);
 }
 
-/// The headings to start from: of a few of the group's cells, and of a wide one several.
+/// Which of those that are known at the place a pose is; nullptr if it is none.
+const KnownPose* find_known(const PoseFit& fit, const FittedPose& found, const std::vector<KnownPose>& known) {
+  const auto same = std::find_if(known.begin(), known.end(), [&](const KnownPose& one) {
+    return square_apart(fit, one.fitted.pose, found.pose, found.information) <= kSamePose * kSamePose;
+  });
+  return same == known.end() ? nullptr : &*same;
+}
+
+/// Which of them a fit is about to end in, that has come to this pose and square; nullptr if in none.
+const KnownPose* find_goal(const PoseFit& fit, const Pose& pose, double square, const std::vector<KnownPose>& known) {
+  const auto goal = std::find_if(known.begin(), known.end(), [&](const KnownPose& one) {
+    const double apart = square_apart(fit, one.fitted.pose, pose, one.fitted.information);
+    return apart <= kSamePose * kSamePose && std::abs(square - one.fitted.square - apart) <= kSameSquare;
+  });
+  return goal == known.end() ? nullptr : &*goal;
+}
+
+/// The headings to start from: of a few of the group's cells, and of a wide one several. With fewer, poses are lost.
 std::vector<double> start_headings(const CellSets& sets, const std::vector<std::size_t>& group) {
   std::vector<double> headings;
   std::vector<std::size_t> chosen = {group[group.size() / 2]};
@@ -265,12 +280,14 @@ class Weigher {
     if (fit_.touches()[first_].roll != nullptr) return 0;
     const std::int32_t node = node_of(groups.begin);
     const Held held{first_, place_of(node, fit_.tree(first_).node(node).u.middle())};
+    middles_.assign(groups.end - groups.begin, {});
     double most = 0;
     double own = 0;
     for (std::size_t g = groups.begin; g < groups.end; ++g) {
       if (hopeless_[g]) continue;
       const Cell& middle = sets_.cells[sets_.groups[g][sets_.groups[g].size() / 2]];
-      const FittedPose fitted = fit_.fit(fit_.pose_at(held, middle.heading.middle), held);
+      FittedPose& fitted = middles_[g - groups.begin];
+      fitted = fit_.fit(fit_.pose_at(held, middle.heading.middle), held);
       const ByPlace by_place = fit_.by_place(fitted, held);
       most =
           std::max({most, std::sqrt(by_place.information) / kStep, fit_.touches_moved(by_place.pose) / kStepOfTouch});
@@ -281,8 +298,24 @@ class Weigher {
 
   void add_place(const Groups& groups, std::size_t group, std::size_t k) {
     const Held held{first_, place_of(column_.node, column_.places[k])};
-    for (const double heading : start_headings(sets_, sets_.groups[group])) {
-      add_pose(groups, group, k, held, fit_.fit(fit_.pose_at(held, heading), held));
+    const KnownPose* goal = nullptr;
+    const PoseFit::IsKnown is_known = [&](const Pose& pose, double square) {
+      goal = find_goal(fit_, pose, square, column_.known[k]);
+      return goal != nullptr;
+    };
+    const bool is_middle = column_.step > 0 && 2 * k + 1 == column_.places.size();
+    const std::vector<std::size_t>& cells = sets_.groups[group];
+    for (const double heading : start_headings(sets_, cells)) {
+      if (is_middle && heading == sets_.cells[cells[cells.size() / 2]].heading.middle) {
+        add_pose(groups, group, k, held, middles_[group - groups.begin]);
+        continue;
+      }
+      const std::optional<FittedPose> best = fit_.fit_unless(is_known, fit_.pose_at(held, heading), held);
+      if (best) {
+        add_pose(groups, group, k, held, *best);
+      } else {
+        result_.owner[group] = goal->group;
+      }
     }
   }
 
@@ -303,8 +336,7 @@ class Weigher {
   }
 
   void add_pose(const Groups& groups, std::size_t from, std::size_t k, const Held& held, const FittedPose& best) {
-    const auto known = find_known(fit_, best, column_.known[k]);
-    if (known != column_.known[k].end()) {
+    if (const KnownPose* known = find_known(fit_, best, column_.known[k])) {
       result_.owner[from] = known->group;
       return;
     }
@@ -332,6 +364,7 @@ class Weigher {
   NodeMaker maker_;
   std::vector<bool> hopeless_;
   Column column_;
+  std::vector<FittedPose> middles_;  // of each group, in the middle of the stretch
   Posterior result_;
 };
 
