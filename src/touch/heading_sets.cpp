@@ -10,6 +10,13 @@
 #include "cell_sets.hpp"
 #include "outline/turn.hpp"
 
+// Notation:
+//   tau_k, eps_k   direction of the part's tangent in the world at contact k, and how far it may be off
+//   a(u)           the tangent's angle in the part's frame, monotone on each stretch of a contact's path
+//   phi            the part's heading: |tau_k - a(u_k) - phi| <= eps_k for each k
+//   tuple          a stretch for each contact, and the interval of phi that all of them leave
+// Where no contact tells a place the heading is all that there is: tuples are connected where a contact passes from one
+// stretch to the next, and what hangs together is one answer.
 namespace rollfix::touch {
 namespace {
 

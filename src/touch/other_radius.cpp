@@ -15,6 +15,12 @@
 #include "path_tree.hpp"
 #include "pose_fit.hpp"
 
+// Notation:
+//   r, dr          the finger's radius, and by how much it grows
+//   (X, phi)       the part's pose
+//   e_k            residuals of touch k, in standard deviations: of the centre along the normal, de/dr = 1 / sd, and of
+//                  the normal where it was felt
+// Least squares over (X, phi, r) by Gauss-Newton's steps on r, each from the pose that fits best with the last r.
 namespace rollfix::touch {
 namespace {
 

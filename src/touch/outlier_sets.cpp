@@ -32,8 +32,8 @@ namespace {
 constexpr double kNegligibleSize = 0.03;
 // ... nor where chance makes so many outliers no more often than this, ...
 constexpr double kLeastChance = 1e-4;
-// ... nor beyond so many sets in all: 31 touches, two of which are outliers.
-constexpr double kMostSets = 500;
+// ... nor beyond so many sets in all: 44 touches, two of which are outliers.
+constexpr double kMostSets = 1000;
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// Probability that at least so many of `all` touches are outliers.

@@ -9,6 +9,12 @@
 
 #include "posterior.hpp"
 
+// Notation:
+//   group          cells that hang together and have one place of the first touch: docs/touch.md, "How it works"
+//   density        of a group the largest of its nodes; links lead to groups of neighbouring places
+//   valley         on the way from one peak to another the least density: of two modes it is kValley below the lower
+//   one
+// Idea: groups from the densest to the thinnest join what they are linked to (persistence of peaks by union and find).
 namespace rollfix::touch {
 namespace {
 

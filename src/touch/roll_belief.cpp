@@ -10,6 +10,17 @@
 #include "outline/turn.hpp"
 #include "rollfix/touch.hpp"
 
+// Notation:
+//   u_j, p_j       a node's place of the roll's first contact, and the probability of its stretch: `place`,
+//   `log_weight` c_j, t_j       where the finger's centre was then, and how the part's tangent pointed, both in the
+//   world, if the first
+//                  contact is at u_j: means of a normal distribution with information Q_j: `at`, `tangent`,
+//                  `information`
+//   o(u), a(u)     the centre and the tangent's angle in the part's frame: `point`
+//   e_j            residual of a pose (X, phi): (c_j - X - R(phi) o(u_j), t_j - a(u_j) - phi)
+//   L              likelihood of the pose, sum_j p_j N(e_j; Q_j): `tilted`; its largest term, but for how dense the
+//                  belief is, is r^2 = e^T Q e - 2 log(density / largest): `square`
+// The belief of one roll, docs/belief.md, as a contact of docs/touch.md, "How it works".
 namespace rollfix::touch {
 namespace {
 

@@ -324,6 +324,7 @@ Problem alone(const TouchProblem& problem, const Log& log) {
   Problem single{problem.part, log, {*problem.finger}, problem.noise};
   if (problem.noise && !has_centres(log)) single.noise->position = 0;
   if (problem.tolerance) single.tolerance = problem.tolerance->angle;
+  if (problem.rolls.size() + problem.touches.size() == 1) single.pose = problem.pose;
   single.robust = problem.robust;
   single.diagnose = false;
   if (single.robust) single.felt.log = without_strays(log, problem.part, single.fingers, *problem.noise);

@@ -12,6 +12,7 @@
 #include "random.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/touch.hpp"
+#include "touch/roll_cases.hpp"
 #include "touch/touch_cases.hpp"
 
 namespace touch_and_prior_test {
@@ -85,6 +86,18 @@ TEST(TouchAndPrior, OfTheHeadingAloneLeaveThePlaceOpen) {
   TouchProblem problem = on_the_long_side(0, {});
   problem.pose->place_sd = std::numeric_limits<double>::infinity();
   EXPECT_EQ(solve(problem).verdict_text(), "unobservable");
+}
+
+TEST(TouchAndPrior, OfARollInPlaceOfATouchAreCombinedAsWell) {
+  std::mt19937_64 generator(3);
+  roll_cases::Rolling rolling;
+  rolling.count = 1;
+  rolling.contact_sd = rolling.place_sd = 1e-4;
+  rolling.angle_sd = 1e-3;
+  TouchProblem problem = roll_cases::random_rolls(rollfix::load_part("gallery:cam"), rolling, generator).problem;
+  const TouchPose before = solve(problem).poses.front();
+  problem.pose = rollfix::PosePrior{before.spread.mean, 0.5 * sd(before, 2)};
+  EXPECT_LT(sd(solve(problem).poses.front(), 2), 0.5 * sd(before, 2));
 }
 
 TEST(TouchAndPrior, HoldTheTruthAsOftenAsTheirIntervalsSay) {
