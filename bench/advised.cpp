@@ -17,7 +17,7 @@
 #include "program.hpp"
 #include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/solve.hpp"
+#include "rollfix/inspect.hpp"
 #include "table.hpp"
 
 namespace {

@@ -76,11 +76,11 @@ Report teach_report(const TeachArguments& arguments) {
   Report report;
   report.notes = taught.notes;
   add_log_notes(log, report.notes);
-  const Inspection outcome = inspect(loaded);
+  const Inspection outcome = inspect(loaded.part);
   if (arguments.json) {
     report.data = format_taught(outcome, taught);
   } else {
-    report.data = inspect_text(outcome);
+    report.data = inspect_text(outcome, loaded);
   }
   add_part_output(
       arguments.output, loaded.part,

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "rollfix/error.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/rolling.hpp"
-#include "rollfix/solve.hpp"
 
 namespace bench {
 namespace {

@@ -6,6 +6,7 @@
 #include "rollfix/certify.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/hold.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/plan.hpp"
 #include "rollfix/question.hpp"
 #include "rollfix/solve.hpp"
@@ -30,8 +31,8 @@ std::string format_certificate(const PairCertificate& certificate);
 /// "rollfix/touch-certificate/1".
 std::string format_certificate(const TouchCertificate& certificate);
 
-/// "rollfix/inspect/1".
-std::string format_inspection(const Inspection& inspection, Layout layout = Layout::lines);
+/// "rollfix/inspect/1" of the part of `loaded`, with the loops of its drawing.
+std::string format_inspection(const Inspection& inspection, const LoadedPart& loaded, Layout layout = Layout::lines);
 
 /// "rollfix/advise/1".
 std::string format_next_roll(const NextRoll& next, Layout layout = Layout::lines);

@@ -6,10 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/finger.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/part.hpp"
-#include "rollfix/solve.hpp"
 
 namespace rollfix {
 
@@ -47,25 +45,6 @@ LoadedPart load_points(std::string text, const std::string& name, const LoadOpti
 
 /// A part that is there, as if it had been saved and loaded: converted to the unit of the options.
 LoadedPart loaded_part(const Part& part, const LoadOptions& options);
-
-/// What a part is: how large, how curved, how ambiguous rolls on it are, where a finger can touch it.
-struct Inspection {
-  Part part;
-  std::string unit;         // of a drawing, empty: not known
-  std::vector<Loop> loops;  // of a drawing
-  std::size_t loop = 0;     // the one that the part is, counted from 1
-  BoundingBox box;
-  Interval curvature;
-  double largest_disk = 0;
-  int symmetry = 1;
-  std::vector<Ambiguity> ambiguity;
-  std::optional<Finger> finger{};  // that was asked about, and ...
-  std::optional<Reach> reach{};    // ... how far it can reach
-};
-
-/// Tries rolls all along the boundary for `ambiguity`: the slow part. Throws InputError: a finger of which it is not
-/// known where it can touch (see has_reach), or a disk that is not valid.
-Inspection inspect(const LoadedPart& loaded, const std::optional<Finger>& finger = {});
 
 /// A part's outline as the text of a file: JSON whose numbers are kept bit by bit, with a version and a checksum.
 /// Throws InputError when the outline has curves of a type that can't be saved (one of the user's own, without

@@ -14,6 +14,7 @@
 #include "rollfix/reading.hpp"           // IWYU pragma: export  length and turn, and how far off they may be
 #include "rollfix/finger.hpp"            // IWYU pragma: export  disks, jaws, outlines
 #include "rollfix/log.hpp"               // IWYU pragma: export  what sensors wrote
+#include "rollfix/inspect.hpp"           // IWYU pragma: export  facts of a part
 #include "rollfix/solve.hpp"             // IWYU pragma: export  one finger or two that roll
 #include "rollfix/touch.hpp"             // IWYU pragma: export  touches and several rolls of a part at rest
 #include "rollfix/hold.hpp"              // IWYU pragma: export  three fingers and more, or a wheel beside a jaw

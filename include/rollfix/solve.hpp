@@ -122,34 +122,6 @@ struct Answer {
   std::size_t finger_count() const { return readings.front().fingers(); }
 };
 
-/// The smallest upright rectangle around the boundary.
-struct BoundingBox {
-  Vec2 lo;
-  Vec2 hi;
-};
-BoundingBox bounding_box(const Part& part);
-
-/// Least and largest curvature; corners don't count.
-Interval curvature_range(const Part& part);
-
-/// The radius of the largest disk that the curvature lets roll everywhere: infinite on a part without concave places,
-/// 0 with a concave corner. A narrow neck can stop a smaller one.
-double largest_disk(const Part& part);
-
-/// How many places of a closed part look alike, wherever a finger is put: 1 for no symmetry, 2 for an ellipse, 0 for
-/// a circle (all of them).
-int symmetry(const Part& part);
-
-/// How many placements rolls of one length have.
-struct Ambiguity {
-  int share = 1;         // the roll's length is the perimeter divided by this
-  int rolls = 0;         // that were tried, from places spread over the boundary
-  int with_stretch = 0;  // of them fit a continuum of places
-  double mean_placements = 0;
-  std::size_t most_placements = 0;
-};
-std::vector<Ambiguity> ambiguity(const Part& part);
-
 /// From a part and a roll on it to every place where the roll can have started: the readings that are meant and the
 /// tolerance that their digits or their noise ask for, the search, with noise the weighing of all rows, what the
 /// fingers can't do, and where the part is in the world. One finger on a part at rest, or two on a part that is free to

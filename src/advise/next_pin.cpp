@@ -10,8 +10,8 @@
 
 #include "belief/posterior.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/rolling.hpp"
-#include "rollfix/solve.hpp"
 #include "text/text.hpp"
 
 // Notation, as in docs/rig.md:

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "rollfix/error.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/plan.hpp"
 #include "rollfix/solve.hpp"
 

@@ -15,7 +15,7 @@
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
-#include "rollfix/solve.hpp"
+#include "rollfix/inspect.hpp"
 #include "sums.hpp"
 #include "tables.hpp"
 

@@ -7,6 +7,7 @@
 #include "documents/json_output.hpp"
 #include "rollfix/advise.hpp"
 #include "rollfix/files.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/solve.hpp"
 #include "rollfix/teach.hpp"
 #include "rollfix/touch.hpp"
@@ -24,8 +25,10 @@ Json json_list(const Entries& entries, const ToJson& to_json) {
 /// "rollfix/locate/1". `explain`: with what the fingers can't do.
 Json answer_json(const Answer& answer, bool explain);
 
-/// "rollfix/inspect/1".
+/// "rollfix/inspect/1" of a part that was not drawn: without loops.
 Json inspection_json(const Inspection& inspection);
+/// Its field `loops`: all that a drawing holds.
+Json loops_json(const LoadedPart& loaded);
 
 /// "rollfix/advise/1".
 Json next_roll_json(const NextRoll& next);

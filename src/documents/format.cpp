@@ -15,8 +15,10 @@ std::string format_answer(const Answer& answer, Layout layout, bool explain) {
   return laid_out(answer_json(answer, explain), layout);
 }
 
-std::string format_inspection(const Inspection& inspection, Layout layout) {
-  return laid_out(inspection_json(inspection), layout);
+std::string format_inspection(const Inspection& inspection, const LoadedPart& loaded, Layout layout) {
+  Json document = inspection_json(inspection);
+  document["loops"] = loops_json(loaded);
+  return laid_out(document, layout);
 }
 
 std::string format_next_roll(const NextRoll& next, Layout layout) { return laid_out(next_roll_json(next), layout); }

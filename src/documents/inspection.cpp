@@ -1,13 +1,10 @@
-#include "rollfix/files.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "documents/documents.hpp"
 #include "documents/outline_numbers.hpp"
-#include "rollfix/error.hpp"
-#include "rollfix/solve.hpp"
+#include "rollfix/files.hpp"
 
 namespace rollfix {
 namespace {
@@ -30,25 +27,6 @@ Json ambiguity_json(const Inspection& inspection) {
                     {"rolls_with_stretch", entry.with_stretch},
                     {"mean_placements", json_number(entry.mean_placements)},
                     {"most_placements", entry.most_placements}});
-  }
-  return list;
-}
-
-/// Of a drawing what it holds besides.
-Json loops_json(const Inspection& inspection) {
-  Json list = Json::array();
-  for (std::size_t k = 0; k < inspection.loops.size(); ++k) {
-    const Loop& loop = inspection.loops[k];
-    list.push_back({{"number", k + 1},
-                    {"taken", k + 1 == inspection.loop},
-                    {"closed", loop.outline.closed},
-                    {"hole", loop.outline.hole},
-                    {"depth", loop.depth},
-                    {"curves", loop.outline.curves.size()},
-                    {"length", json_number(loop.length)},
-                    {"area", loop.outline.closed ? json_number(loop.area) : Json(nullptr)},
-                    {"gap", json_number(loop.gap)},
-                    {"start", point_json(loop.outline.curves.front().front())}});
   }
   return list;
 }
@@ -83,33 +61,31 @@ std::string name_of(const Finger& finger) {
   return disk ? fmt::format("disk,r={}", disk->radius) : finger.name();
 }
 
-Inspection inspect(const LoadedPart& loaded, const std::optional<Finger>& finger) {
-  if (finger && !has_reach(*finger)) {
-    throw InputError(
-        fmt::format("the finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
+Json loops_json(const LoadedPart& loaded) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < loaded.loops.size(); ++k) {
+    const Loop& loop = loaded.loops[k];
+    list.push_back({{"number", k + 1},
+                    {"taken", k + 1 == loaded.loop},
+                    {"closed", loop.outline.closed},
+                    {"hole", loop.outline.hole},
+                    {"depth", loop.depth},
+                    {"curves", loop.outline.curves.size()},
+                    {"length", json_number(loop.length)},
+                    {"area", loop.outline.closed ? json_number(loop.area) : Json(nullptr)},
+                    {"gap", json_number(loop.gap)},
+                    {"start", point_json(loop.outline.curves.front().front())}});
   }
-  const Part& part = loaded.part;
-  Inspection inspection{part,
-                        loaded.unit,
-                        loaded.loops,
-                        loaded.loop,
-                        bounding_box(part),
-                        curvature_range(part),
-                        largest_disk(part),
-                        symmetry(part),
-                        ambiguity(part)};
-  inspection.finger = finger;
-  if (finger) inspection.reach = reach_of(part, *finger);
-  return inspection;
+  return list;
 }
 
 Json inspection_json(const Inspection& inspection) {
   const Part& part = inspection.part;
   return {{"schema", "rollfix/inspect/1"},
           {"part", part_json(part)},
-          {"unit", inspection.unit.empty() ? Json(nullptr) : Json(inspection.unit)},
+          {"unit", part.unit().empty() ? Json(nullptr) : Json(part.unit())},
           {"accuracy", accuracy_json(part.outline().accuracy)},
-          {"loops", loops_json(inspection)},
+          {"loops", Json::array()},
           {"area", part.closed() ? json_number(enclosed_area(part.outline())) : Json(nullptr)},
           {"total_turn", json_number(part.total_turn())},
           {"box", Json::array({point_json(inspection.box.lo), point_json(inspection.box.hi)})},

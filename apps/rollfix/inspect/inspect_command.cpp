@@ -43,10 +43,10 @@ Report inspect_report(const InspectArguments& arguments) {
         fmt::format("--finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
   }
   const Part& part = loaded.part;
-  const Inspection outcome = inspect(loaded, finger);
+  const Inspection outcome = inspect(part, finger);
   Report report;
   report.notes = loaded.notes;
-  report.data = arguments.json ? format_inspection(outcome) : inspect_text(outcome);
+  report.data = arguments.json ? format_inspection(outcome, loaded) : inspect_text(outcome, loaded);
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   add_part_output(
       arguments.output, part,

@@ -23,22 +23,22 @@ std::string kind_of(const Loop& loop) {
   return loop.depth == 0 ? "outer loop" : "island";
 }
 
-std::string loops_text(const Inspection& outcome) {
-  if (outcome.loops.empty()) return "";
+std::string loops_text(const LoadedPart& loaded) {
+  if (loaded.loops.empty()) return "";
   std::string text;
   std::string title = "loops";
-  const std::size_t shown = std::min(outcome.loops.size(), kMostLoops);
+  const std::size_t shown = std::min(loaded.loops.size(), kMostLoops);
   for (std::size_t k = 0; k < shown; ++k) {
-    const Loop& loop = outcome.loops[k];
+    const Loop& loop = loaded.loops[k];
     const std::string area = loop.outline.closed ? fmt::format(", area {:.8g}", loop.area) : "";
     const std::string gap = loop.has_gap() ? fmt::format(", gaps up to {:.2g}", loop.gap) : "";
     text += fmt::format("{:<12} {}: {}, {}, length {:.8g}{}{}{}\n", title, k + 1, kind_of(loop),
                         counted(loop.outline.curves.size(), "curve", "curves"), loop.length, area, gap,
-                        k + 1 == outcome.loop ? "  <- this one" : "");
+                        k + 1 == loaded.loop ? "  <- this one" : "");
     title = "";
   }
-  if (shown < outcome.loops.size()) {
-    text += fmt::format("{:<12} ... {} more (--json lists them all)\n", "", outcome.loops.size() - shown);
+  if (shown < loaded.loops.size()) {
+    text += fmt::format("{:<12} ... {} more (--json lists them all)\n", "", loaded.loops.size() - shown);
   }
   return text;
 }
@@ -146,7 +146,7 @@ std::string ambiguity_text(const std::vector<Ambiguity>& entries) {
 
 }  // namespace
 
-std::string inspect_text(const Inspection& outcome) {
+std::string inspect_text(const Inspection& outcome, const LoadedPart& loaded) {
   const Part& part = outcome.part;
   const int decimals = decimals_for(part.perimeter());
   const Vec2 size = outcome.box.hi - outcome.box.lo;
@@ -154,8 +154,8 @@ std::string inspect_text(const Inspection& outcome) {
   const auto line = [&text](const char* title, const std::string& value) {
     text += fmt::format("{:<12} {}\n", title, value);
   };
-  text += loops_text(outcome);
-  if (!outcome.unit.empty()) line("unit", plain(outcome.unit));
+  text += loops_text(loaded);
+  if (!part.unit().empty()) line("unit", plain(part.unit()));
   line("shape", shape_text(part));
   if (const Accuracy& accuracy = part.outline().accuracy; !accuracy.is_exact()) {
     line("accuracy", accuracy_text(accuracy));

@@ -8,9 +8,9 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/documents.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/solve.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

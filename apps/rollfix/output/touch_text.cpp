@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "outline/turn.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/solve.hpp"
 #include "rollfix/touch.hpp"
 #include "text/text.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rollfix/inspect.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_sections.hpp"
 #include "rollfix/output/answer_words.hpp"

@@ -4,6 +4,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "rollfix/documents.hpp"
+#include "rollfix/inspect.hpp"
 #include "rollfix/solve.hpp"
 #include "signals.hpp"
 
@@ -33,7 +34,7 @@ std::string inspect_document(const PartHandle& handle, const py::object& given) 
   const std::shared_ptr<const LoadedPart> loaded = handle.loaded();
   const std::optional<Finger> finger = given.is_none() ? std::nullopt : std::optional<Finger>(finger_from(given));
   const Unlocked others_may_run;
-  return format_inspection(inspect(*loaded, finger), Layout::line);
+  return format_inspection(inspect(loaded->part, finger), *loaded, Layout::line);
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ py::tuple teach_part(const LogHandle& log, const py::object& finger, const py::o
     const Taught taught = teach(*log.log, options);
     const Part part(taught.outline, {allow_crossing});
     loaded = LoadedPart{part, taught.outline.unit, {}, 0, taught.notes};
-    document = format_taught(inspect(*loaded), taught, Layout::line);
+    document = format_taught(inspect(part), taught, Layout::line);
   }
   return py::make_tuple(PartHandle(std::move(*loaded)), document);
 }

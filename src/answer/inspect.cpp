@@ -1,11 +1,15 @@
-#include "rollfix/solve.hpp"
+#include "rollfix/inspect.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
+#include "rollfix/solve.hpp"
 
 namespace rollfix {
 namespace {
@@ -126,6 +130,17 @@ std::vector<Ambiguity> ambiguity(const Part& part) {
   std::vector<Ambiguity> result;
   for (const int share : {16, 8, 4, 2}) result.push_back(ambiguity_of(part, share, static_cast<int>(rolls)));
   return result;
+}
+
+Inspection inspect(const Part& part, const std::optional<Finger>& finger) {
+  if (finger && !has_reach(*finger)) {
+    throw InputError(
+        fmt::format("the finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
+  }
+  Inspection inspection{
+      part, bounding_box(part), curvature_range(part), largest_disk(part), symmetry(part), ambiguity(part), finger};
+  if (finger) inspection.reach = reach_of(part, *finger);
+  return inspection;
 }
 
 }  // namespace rollfix
