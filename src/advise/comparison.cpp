@@ -6,6 +6,14 @@
 
 #include "belief/posterior.hpp"
 
+// Notation:
+//   i, j, p_i       places that are left, and their probabilities: Contender
+//   x               length of a roll; y_i, V_i: the turn that place i would measure then, and its variance: Seen
+//   d_ij^2          the largest (y_i - y_j)^2 / (V_i + V_j) on the way: `distance_`
+//   q_j             p_j exp(-d_ij^2 / 2) over their sum: what j is worth where i is true: `left`
+//   bits            H(p) - sum over i of p_i H(q), H being the entropy
+// Follows docs/belief.md, "The next roll", and docs/two_fingers.md, "The next roll".
+// Idea: a roll is read all along, so that what has told two places apart stays told: their largest distance counts.
 namespace rollfix::belief {
 namespace {
 

@@ -17,6 +17,17 @@
 #include "touch/likely_poses.hpp"
 #include "touch/part_distance.hpp"
 
+// Notation:
+//   i, j, w_i       a pose that is left and its weight: LikelyPose::weight
+//   x_i, n_i        how far the finger goes in pose i until it touches, and the normal there: Forecast::touch
+//   c               cosine of the way's angle with the normal: `incidence`; c (x_i - x_j): how far apart the sides are
+//   V_i             variance of the side across itself, from the pose's covariance; of n_i: `turn_variance`
+//   d_ij^2          c^2 (x_i - x_j)^2 / (sd^2 + V_i + V_j), and the like of the normals: `square_apart`; closely the
+//                   squares of the touch that pose i leads to on any side of pose j: `square_off`
+//   bits            -sum over i of w_i log2(sum over j of w_j exp(-d_ij^2 / 2)), the entropy that a touch takes away
+// Follows docs/touch.md, "The next touch".
+// Idea: a touch tells two poses apart by how far away from each other it would end in them. Each way is traced in steps
+// of the part's distance (sphere tracing) and judged by the x_i, the most promising ones again by all sides.
 namespace rollfix {
 namespace touch {
 namespace {

@@ -14,6 +14,15 @@
 #include "part/part_data.hpp"
 #include "rollfix/locate.hpp"
 
+// Notation:
+//   s0, t0          first contacts of a and b; s_k, t_k: at reading k. One finger starts at s and is at t
+//   kappa           curvature there: SlopeSample
+//   f_k             residual of reading k, of length L_k and turn theta_k: eqs. (4), (5), of two fingers (8), (9)
+//   J               derivatives of the f_k by the first contacts: `jacobian`; J^-1 also of least squares: `inverse`
+//   d/dtheta_k = J^-1 e_k, d/dL_k = -(df_k/dL_k) J^-1 e_k   of the first contacts: Sensitivity
+// Follows docs/search.md, "ACCURACY" and "MULTIPLE SOLUTIONS".
+// Idea: a simple root moves as the implicit function theorem says, and is as exact as f's rounding, kRootTurn, over its
+// least slope. A contact that stands at a corner has no slope: it holds its finger, and tells where the other is.
 namespace rollfix {
 namespace {
 

@@ -10,6 +10,15 @@
 
 #include "accuracy.hpp"
 
+// Notation:
+//   f(s)            Theta(s + L) - Theta(s) - theta, eqs. (4), (5): ResidualSample; of several readings the largest |f|
+//   piece, root     what the search left, and zeros of f in it: Piece, Root
+//   cluster         pieces that touch, across s = 0 as well: one placement
+//   P               the perimeter: `period_`
+// Follows docs/search.md, "Once per reading", 7, and "MULTIPLE SOLUTIONS".
+// Idea: a cluster is one connected set, and f at its two ends says of which kind. Readings share a root where the steps
+// of Gauss and Newton from one of theirs bring the largest |f| down to rounding. Where there is none, golden sections
+// find what misses least.
 namespace rollfix {
 namespace {
 

@@ -4,13 +4,21 @@
 #include <algorithm>
 #include <utility>
 
+// Notation:
+//   t_i, q_i        parameters and points
+//   f(t)            sum of N_j(t) c_j: cubic B-splines, `basis`, and their control points, `controls_`
+//   A c = b         normal equations of |f(t_i) - q_i|^2 and, with a small weight, of the third derivative: `blocks`
+//   knot            where spans meet: counted once, three times where f is sharp, four times at an end: `repeated_`
+// Follows C. de Boor, "A Practical Guide to Splines" (1978).
+// Idea: four B-splines are not zero on a span, so that A is banded (of a closed f cyclically): sparse elimination takes
+// linear time.
 namespace rollfix {
 
 namespace {
 
 constexpr int kSharp = 3;  // a cubic spline's knot counted this often leaves only the position continuous
 constexpr int kEnd = 4;    // and this often it is an end
-/// Bending counts this much beside jumps of the third derivative: nothing, except where no point says anything.
+/// Bending counts this much beside the third derivative: nothing, except where no point says anything.
 constexpr double kBending = 1e-3;
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Knots {
 /// The cubic spline (C2 but for sharp breaks) of least squared distance to points at given parameters.
 class FittedSpline {
  public:
-  /// `stiffness` weighs jumps of the third derivative against the points: what decides where points are missing. It
+  /// `stiffness` weighs the third derivative against the points: what decides where points are missing. It
   /// should be above 0 and small beside 1.
   FittedSpline(Knots knots, const std::vector<double>& parameters, const std::vector<Vec2>& points, double stiffness);
 

@@ -12,6 +12,15 @@
 #include "outline/turn.hpp"
 #include "rollfix/outline.hpp"
 
+// Notation:
+//   node, edge      ends of curves that meet, and what is drawn from one to another: Edge
+//   passage         an edge and the way that it is passed through
+//   departure       heading and curvature with which an edge leaves a node
+//   loose           an edge that ends nowhere, and what hangs on it alone
+//   face            what is all around a piece: its passages on the outside, cut into loops that pass no node twice
+// Follows docs/files.md, "Loops".
+// Idea: from the leftmost point on, always the rightmost turn at a node: that is once around the outer face of a plane
+// graph. Where edges leave alike, their curvatures say which is on the right.
 namespace rollfix {
 
 namespace {

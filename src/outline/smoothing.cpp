@@ -16,6 +16,15 @@
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   q_i, tol        points of a scan, and how near f has to be to each: `points_`, `tolerance_`
+//   t_i             length to the place nearest q_i along the course, a polygon of averages over 4 tol: Course
+//   f(t)            cubic spline of least squares, sharp at corners: FittedSpline
+//   e_i             distance of q_i from f, by Newton's method on (q_i - f(t)) . f'(t) = 0: `nearest`
+//   misfit          the largest e_i of each span: Misfit
+// Follows docs/files.md, "Points and scans".
+// Idea: the spans that are off most are halved until all e_i <= tol. Along averages noise does not lengthen the way. A
+// corner at which f hardly turns is given up, and all is fitted again.
 namespace rollfix {
 
 namespace {

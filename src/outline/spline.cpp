@@ -14,6 +14,14 @@
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
 
+// Notation:
+//   p_i, h_i        points and chords' lengths: Chords
+//   t               parameter, the length along the chords; f(t): cubic on each
+//   d_i             slope of chord i: (p_i+1 - p_i) / h_i
+//   M_i             f'' at p_i: h_i-1 M_i-1 + 2 (h_i-1 + h_i) M_i + h_i M_i+1 = 6 (d_i - d_i-1): `add_knot`
+// Follows C. de Boor, "A Practical Guide to Splines" (1978); docs/files.md, "Points and scans".
+// Idea: between corners f'' is continuous and 0 at both ends (natural), without corners all is periodic: a tridiagonal
+// system, cyclic then, whose diagonal dominates.
 namespace rollfix {
 
 namespace {

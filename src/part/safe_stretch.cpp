@@ -5,6 +5,14 @@
 #include "cursor.hpp"
 #include "reach_search.hpp"
 
+// Notation:
+//   x, y            along the tangent at the contact, and against the outward normal there; T, phi: the slope's angle
+//   kappa, k        curvature of the boundary and of the finger; d(sin phi)/dx = kappa, and of the disk's rim it is -k
+//   e               by how much kappa falls short of -k: `excess_`; j, x_j: turn and place of a concave joint: `jumps_`
+// Follows docs/reach.md, "How it is decided", 3.
+// Idea: while kappa >= -k the boundary stays above the rim, and the finger can't enter it. Else it comes below by no
+// more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope: while that is within the slack, and the
+// slopes make sense, the stretch is safe.
 namespace rollfix {
 namespace {
 
@@ -19,12 +27,6 @@ constexpr double kMostSafeLengthOfSeveral = 4;  // of a stance on several spiral
 constexpr int kSafeRounds = 30;                 // of halving where it ends
 
 /// Walks from a stance in one direction (+1 or -1) as far as the finger can't enter the boundary.
-///
-/// With x along the tangent, T, at the contact and y against n, the boundary has sin(phi) as its slope's sine, with
-/// d(sin phi)/dx = kappa, and the disk's rim has -k x. As long as kappa >= -k the boundary stays above the rim: the
-/// finger can't enter it. Where kappa falls short by e, and where concave joints turn by j at x_j, it comes below by no
-/// more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope; so long as that is within the slack, and
-/// the slopes make sense, the stretch is safe.
 class SafeWalk {
  public:
   /// `angles`: of the tangent on the stance.

@@ -12,6 +12,16 @@
 #include "roll/track.hpp"
 #include "rollfix/error.hpp"
 
+// Notation, as in docs/rolling.md, "Fingers of any convex shape":
+//   s, u            the contact on the part and on the finger, arc lengths; s + u stays: `sum_`
+//   Theta, N        direction of the part's tangent, and of the finger's outward normal in its own frame
+//   kappa, kappa_f  their derivatives; the finger fits where kappa_f(u) + kappa(s) > 0: `has_room`
+//   base            a stretch of a point's way along the part: EvenTrack
+//   cell            a spiral of the finger, counted on over its laps: while s grows, u and the cell fall
+//   piece           of both at once: what rolls along one spiral of the part and off one of the finger
+//   jump            by which tiny joints of the finger have turned it
+// Idea: on a piece both curvatures are monotone: their ends bound the sum, and halving finds the first place where the
+// finger may not fit. Pieces are made one after another, as far as the roll goes.
 namespace rollfix {
 
 namespace {

@@ -16,6 +16,13 @@
 #include "roll/rig_closure.hpp"
 #include "rollfix/error.hpp"
 
+// Notation, as in docs/rolling.md, "A jaw and a wheel on a pin", and in rig_closure.cpp:
+//   s, t            the jaw's and the wheel's contact on the part: `jaw.s`, `wheel.s`; r: the wheel's radius
+//   (a, b)          how far jaw and wheel have turned against the part: `rotations`
+//   (xi, eta)       the pin in the jaw's frame; squeezed (xi, g): `value`; D: their slopes by (a, b), `slope`
+//   target          what the plan wants of the value at a time; lead: D^-1 (target - value)
+//   g               how far the wheel's normal passes by the jaw's contact: `margin`, of a squeezed rig its stability
+//   v               the wheel's contact angle on the wheel
 // Idea: the pin's commanded place is two equations for how far both fingers have turned against the part (the closure,
 // rig_closure.cpp). Newton's method solves them anew in every row, so that the contacts never drift apart; their
 // derivatives only predict where it starts. What the last row was is followed in steps so short that the next solution

@@ -8,18 +8,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 
+// Notation, as in docs/rolling.md, "The roll itself":
+//   s, Theta, kappa   the contact, the tangent's angle and the curvature there, unwrapped: on the second lap s > P
+//   r               radius of the disk, of a jaw infinite: `radius_`
+//   knot k          where spiral k begins; stretch 2k is the pivot there, stretch 2k + 1 the spiral
+//   turn            by which Theta jumps at a knot: above 0 a pivot, below 0 a joint that is passed (`fall_of`) or a
+//                   corner that no finger gets over (`blocks`)
+//   1 + r kappa     above kLeastClearance where the finger fits: `clearance`; of a jaw kappa, in turns per lap
+// Idea: kappa is monotone on a spiral. Its ends say whether the finger fits all along, and if not, one root of the
+// clearance (by TOMS 748) is where it fits no longer.
 namespace rollfix {
 
 namespace {
-
-constexpr double kOneTurn = 2 * std::numbers::pi;
 
 bool is_pivot(std::int64_t index) { return index % 2 == 0; }
 std::int64_t knot_before(std::int64_t index) { return (index - (index % 2 != 0 ? 1 : 0)) / 2; }
@@ -61,7 +67,7 @@ bool EvenTrack::ends_at(std::int64_t index) const {
 }
 
 double EvenTrack::clearance(double curvature) const {
-  const double room = std::isinf(radius_) ? curvature * turning_.perimeter() / kOneTurn : 1 + radius_ * curvature;
+  const double room = std::isinf(radius_) ? curvature * turning_.perimeter() / kFullTurn : 1 + radius_ * curvature;
   return room - kLeastClearance;
 }
 

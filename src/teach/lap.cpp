@@ -7,6 +7,16 @@
 
 #include "outline/turn.hpp"
 
+// Notation:
+//   p(s), Theta(s)    the roll's path and the tangent's angle by length rolled, nothing closed: `path_`, `angle_at`
+//   L               the lap's length: `Lap::length`
+//   n, g            its whole turns, and how far its turn is off them: `turns`, `turn_gap`
+//   (s_k, theta_k)  a row after the first lap; off: theta_k - Theta(s_k - L) - 2 pi n, which would be g
+//   kappa           Theta' a lap before: a longer L changes off by kappa dL, so that g - kappa dL = off
+//   A x = b         normal equations of x = (g, dL): `normal`, `right`
+// Follows docs/teach.md, "Closing", 1.
+// Idea: the lap ends where |p(s) - p(0)| is least, place and direction being those of the start. Where the roll goes on,
+// the rows of both passes know L better: least squares, row on row and corner on corner, by Gauss and Newton's steps.
 namespace rollfix {
 
 namespace {

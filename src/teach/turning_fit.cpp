@@ -8,6 +8,15 @@
 #include "rollfix/curve.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   (s_k, theta_k)  rows of a run: TurningRun
+//   f(s)            cubic spline of least squares: FittedSpline; off: |f(s_k) - theta_k|
+//   Theta(s)        values and slopes at nodes, between them cubics: TurningNodes
+//   m_k             slope of the chord from node k to the next: `chord`
+// Follows docs/teach.md, "What is made of the rows"; F. N. Fritsch and R. E. Carlson, "Monotone piecewise cubic
+// interpolation" (1980): slopes of the sign of both chords and at most three times the smaller one are enough.
+// Idea: the spans that are off most are halved until every row is within the tolerance; exact rows become nodes
+// themselves where that takes nearly as many spans as rows.
 namespace rollfix {
 
 namespace {

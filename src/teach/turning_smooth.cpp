@@ -9,6 +9,15 @@
 #include "rollfix/pulse.hpp"
 #include "teach/turning_fit.hpp"
 
+// Notation:
+//   (s_k, theta_k)  rows of a run, each off by the standard deviation `sd`: TurningRun, RowErrors
+//   ramp            how much of a lap's drift a row has: fitted like the row, as its second coordinate
+//   f(s)            cubic spline through theta_k, or, where errors gather, through slopes between rows: FittedSpline
+//   block           a sixth of a span's rows; chi^2: (sum of off)^2 / (count sd^2), summed over the blocks: `is_off`
+//   Theta(s)        f, or its integral: TurningNodes
+// Follows docs/teach.md, "What is made of the rows".
+// Idea: a span is halved while the means of its blocks are off by more than chance makes them: a bend that f misses
+// takes neighbouring rows the same way, noise does not.
 namespace rollfix {
 
 namespace {

@@ -10,6 +10,16 @@
 #include "belief/two/pair_rows.hpp"
 #include "rollfix/error.hpp"
 
+// Notation:
+//   s, t            first contacts of a and b; w = (w_a, w_b): their tilted turnings, `PairStart::w`
+//   row, node       what was felt at an instant, and neighbouring rows together: PairRows, PairNode
+//   d^2, dof        squares of all nodes at the likeliest pair, `cost`, and what is expected of them, `freedom`
+//   sigmas          as many standard deviations a contact may be off in the search
+//   e, F            errors that all rows share, and the information on w at a peak: d e / d w is `errors_by_start`, so
+//                   that the variance of e is `covariance` + (d e / d w) F^-1 (d e / d w)^T
+// Follows docs/two_fingers.md, "The search".
+// Idea: candidates (pair_candidates.cpp), the peaks that they lead to (pair_starts.cpp), a grid about each
+// (pair_lattice.cpp), modes (pair_modes.cpp). Where the best peak fits badly it begins again with larger `sigmas`.
 namespace rollfix::belief {
 
 namespace {
