@@ -16,6 +16,7 @@
 
 #include "free_roll.hpp"
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
 
@@ -34,16 +35,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 constexpr double kPi = std::numbers::pi;
-
-template <class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 Reading reading_at(const FingerRows& rows, double radius, std::size_t row) {
   return reading_between({radius}, {rows.u[0], rows.psi[0]}, {rows.u[row], rows.psi[row]});
@@ -366,31 +357,31 @@ TEST(FreePart, a_disk_too_big_for_a_concavity_is_named_with_the_place) {
   const Part part = part_of("limacon,a=1.2,b=1");
   const double P = part.perimeter();
   const auto refusal = [&](double ra, double rb) {
-    return message_of([&] { roll_free(part, by_distances(ra, 0, P, rb, 0.1, P)); });
+    return refusal_of([&] { roll_free(part, by_distances(ra, 0, P, rb, 0.1, P)); });
   };
   EXPECT_THAT(refusal(0.2, 0.01),
               AllOf(StartsWith("finger a: "), HasSubstr("too big"), HasSubstr("radius below 0.05")));
   EXPECT_THAT(refusal(0.01, 0.2), AllOf(StartsWith("finger b: "), HasSubstr("too big"), HasSubstr("(-0.2, ")));
   FreePlan turning = by_profiles(0.01, 0, 0.2, P / 2 - 1);
   turning.fingers[1].omega = [](double) { return 200.0; };
-  EXPECT_THAT(message_of([&] { roll_free(part, turning); }), AllOf(StartsWith("finger b: "), HasSubstr("too big")));
+  EXPECT_THAT(refusal_of([&] { roll_free(part, turning); }), AllOf(StartsWith("finger b: "), HasSubstr("too big")));
 }
 
 TEST(FreePart, a_concave_corner_is_named_with_the_place) {
   const Part part(outline_through({{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}, "notched", {}));
-  EXPECT_THAT(message_of([&] { roll_free(part, by_distances(0.1, 1, 1, 0.1, 8, 4)); }),
+  EXPECT_THAT(refusal_of([&] { roll_free(part, by_distances(0.1, 1, 1, 0.1, 8, 4)); }),
               AllOf(StartsWith("finger b: "), HasSubstr("concave corner at s = 9.8284"), HasSubstr("(2, 1)")));
 }
 
 TEST(FreePart, running_off_an_open_end_is_refused) {
   const Part part = part_of("exponential");
-  EXPECT_THAT(message_of([&] { roll_free(part, by_distances(0.1, 9, 5, 0.1, 1, 1)); }),
+  EXPECT_THAT(refusal_of([&] { roll_free(part, by_distances(0.1, 9, 5, 0.1, 1, 1)); }),
               AllOf(StartsWith("finger a: "), HasSubstr("runs off the end")));
 }
 
 TEST(FreePart, plans_that_make_no_sense_are_refused) {
   const Part part = part_of("ellipse");
-  const auto refusal = [&](const FreePlan& plan) { return message_of([&] { roll_free(part, plan); }); };
+  const auto refusal = [&](const FreePlan& plan) { return refusal_of([&] { roll_free(part, plan); }); };
   const FreePlan distances = by_distances(0.1, 0, 1, 0.1, 2, 1);
   const FreePlan profiles = by_profiles(0.1, 0, 0.1, 2);
   EXPECT_THAT(refusal({}), HasSubstr("found 0 distances and 0 angular velocities"));
@@ -433,7 +424,7 @@ TEST(FreePart, plans_that_make_no_sense_are_refused) {
 TEST(FreePart, too_few_rows_to_tell_wrapped_angles_apart_are_refused) {
   FreePlan plan = by_distances(0.5, 0, 1.6, 0.5, 2, 0.1);
   plan.rows = 2;
-  EXPECT_THAT(message_of([&] { roll_free(part_of("circle"), plan); }),
+  EXPECT_THAT(refusal_of([&] { roll_free(part_of("circle"), plan); }),
               AllOf(StartsWith("finger a: "), HasSubstr("take more rows")));
 }
 

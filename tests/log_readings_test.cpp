@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "refusal.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/outline.hpp"
@@ -24,16 +25,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
-
-template <class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 const Part& ellipse() {
   static const Part part(gallery("ellipse"));
@@ -240,7 +231,7 @@ TEST(Log, instants_choose_the_rows_they_are_nearest_to) {
 TEST(Log, an_instant_that_means_the_first_contact_is_refused) {
   const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n1.5,-3,3\n");
   for (const double instant : {0.0, -0.25, 0.2}) {
-    EXPECT_THAT(message_of([&] {
+    EXPECT_THAT(refusal_of([&] {
                   rows_at(log, {1, instant});
                 }),
                 testing::AllOf(HasSubstr("the first contact"), HasSubstr("`at`"), HasSubstr("up to 1.5")));
@@ -250,27 +241,27 @@ TEST(Log, an_instant_that_means_the_first_contact_is_refused) {
 
 TEST(Log, two_instants_that_mean_one_row_are_refused) {
   const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n1.5,-3,3\n");
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(refusal_of([&] {
                 rows_at(log, {1, 0.5, 1.2});
               }),
               testing::AllOf(HasSubstr("the instants 1 and 1.2 mean the same row, at 1"), HasSubstr("`at`")));
-  EXPECT_THAT(message_of([&] { rows_at(log, {0.5, 0.5}); }), HasSubstr("the instants 0.5 and 0.5"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log, {0.5, 0.5}); }), HasSubstr("the instants 0.5 and 0.5"));
 }
 
 TEST(Log, instants_outside_or_in_a_gap_of_the_log_are_refused) {
   const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n5,-3,3\n5.5,-4,4\n");
-  EXPECT_THAT(message_of([&] { rows_at(log, {2}); }), HasSubstr("nearest rows are at 1 and 5"));
-  EXPECT_THAT(message_of([&] { rows_at(log, {1.26}); }), HasSubstr("instant 1.26"));
-  EXPECT_THAT(message_of([&] { rows_at(log, {-0.3}); }), HasSubstr("goes from 0 to 5.5"));
-  EXPECT_THAT(message_of([&] { rows_at(log, {7}); }), HasSubstr("goes from 0 to 5.5"));
-  EXPECT_THAT(message_of([&] { rows_at(log, {NAN}); }), HasSubstr("instant nan"));
-  EXPECT_THAT(message_of([&] { rows_at(log_of("u,psi\n0,0\n1,1\n"), {1}); }), HasSubstr("no column 'time'"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log, {2}); }), HasSubstr("nearest rows are at 1 and 5"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log, {1.26}); }), HasSubstr("instant 1.26"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log, {-0.3}); }), HasSubstr("goes from 0 to 5.5"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log, {7}); }), HasSubstr("goes from 0 to 5.5"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log, {NAN}); }), HasSubstr("instant nan"));
+  EXPECT_THAT(refusal_of([&] { rows_at(log_of("u,psi\n0,0\n1,1\n"), {1}); }), HasSubstr("no column 'time'"));
 }
 
 TEST(Log, u_needs_to_know_the_finger) {
   const Log log = log_of("u,psi\n0,0\n1,1\n");
-  EXPECT_THAT(message_of([&] { readings(log, ellipse(), {}); }), HasSubstr("`finger` disk,r="));
-  EXPECT_THAT(message_of([&] { readings(log, ellipse(), {DiskFinger{0}}); }), HasSubstr("above 0"));
+  EXPECT_THAT(refusal_of([&] { readings(log, ellipse(), {}); }), HasSubstr("`finger` disk,r="));
+  EXPECT_THAT(refusal_of([&] { readings(log, ellipse(), {DiskFinger{0}}); }), HasSubstr("above 0"));
 }
 
 // --- Direction: a part that was given clockwise is stored counter-clockwise.

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
 
@@ -80,16 +81,6 @@ double difference(const Roll& a, const Roll& b, const DiskFinger& finger) {
                      std::abs(a.angle[0][k] - b.angle[0][k])});
   }
   return most;
-}
-
-template <class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 // --- Signs, on a disk of radius r on a circle of radius R: everything is known there.
@@ -397,7 +388,7 @@ TEST(Rolling, a_disk_too_big_for_a_concavity_is_told_where_and_how_big_it_may_be
   const Part part = part_of("limacon,a=1.2,b=1");
   // At the dimple, opposite to s = 0: curvature (a - 2b)/(a - b)^2 there, in polar form at u = pi.
   const double kappa = (1.2 - 2 * 1.0) / (0.2 * 0.2);
-  const std::string message = message_of([&] { roll(part, {0.2}, by_distance(0, part.perimeter())); });
+  const std::string message = refusal_of([&] { roll(part, {0.2}, by_distance(0, part.perimeter())); });
   EXPECT_THAT(message,
               AllOf(HasSubstr("radius 0.2 is too big"), HasSubstr("s = " + fmt::format("{:.7g}", part.perimeter() / 2)),
                     HasSubstr("(-0.2, "), HasSubstr(fmt::format("curvature is {:.6g}", kappa)),
@@ -410,8 +401,8 @@ TEST(Rolling, closed_form_and_integration_refuse_alike) {
   const Part part = part_of("limacon,a=1.2,b=1");
   for (const RollPlan& plan : {by_distance(0, 5), by_distance(0, -5), by_rotation(0.5, 60), by_rotation(0.5, -60),
                                by_distance(part.perimeter() / 2, 0.1)}) {
-    const std::string integrated = message_of([&] { integrated_roll(part, {0.2}, plan); });
-    EXPECT_EQ(integrated, message_of([&] { roll(part, {0.2}, plan); }));
+    const std::string integrated = refusal_of([&] { integrated_roll(part, {0.2}, plan); });
+    EXPECT_EQ(integrated, refusal_of([&] { roll(part, {0.2}, plan); }));
     EXPECT_THAT(integrated, HasSubstr("radius below 0.05;"));
   }
 }
@@ -434,10 +425,10 @@ TEST(Rolling, a_concave_corner_is_refused_and_named) {
   const double at_notch = 4 + 3 + std::sqrt(8.0);
   for (const RollPlan& plan : {by_distance(8, 4), by_distance(11, -4), by_rotation(8, 100), by_distance(at_notch, 1),
                                by_distance(8, at_notch - 8)}) {
-    const std::string message = message_of([&] { integrated_roll(part, {0.1}, plan); });
+    const std::string message = refusal_of([&] { integrated_roll(part, {0.1}, plan); });
     EXPECT_THAT(message, AllOf(HasSubstr("notched"), HasSubstr("concave corner at s = 9.8284"), HasSubstr("(2, 1)"),
                                HasSubstr("-90 degrees"), HasSubstr("largest radius that would do is 0")));
-    EXPECT_EQ(message, message_of([&] { roll(part, {0.1}, plan); }));
+    EXPECT_EQ(message, refusal_of([&] { roll(part, {0.1}, plan); }));
   }
   EXPECT_NO_THROW(integrated_roll(part, {0.1}, by_distance(8, 1.5)));
 }
@@ -449,16 +440,16 @@ TEST(Rolling, an_open_part_ends) {
   EXPECT_NO_THROW(integrated_roll(part, {0.2}, by_distance(P, -P)));
   for (const RollPlan& plan : {by_distance(0, 1.01 * P), by_distance(0.1, -0.2), by_distance(-0.1, 1),
                                by_distance(P, 1), by_rotation(0, 1000), by_rotation(1, -1000)}) {
-    const std::string message = message_of([&] { integrated_roll(part, {0.2}, plan); });
+    const std::string message = refusal_of([&] { integrated_roll(part, {0.2}, plan); });
     EXPECT_THAT(message, HasSubstr("runs off the end"));
-    EXPECT_EQ(message, message_of([&] { roll(part, {0.2}, plan); }));
+    EXPECT_EQ(message, refusal_of([&] { roll(part, {0.2}, plan); }));
   }
 }
 
 TEST(Rolling, plans_that_make_no_sense_are_refused) {
   const Part part = part_of("ellipse");
   const auto refusal = [&](const RollPlan& plan, double radius = 0.1) {
-    return message_of([&] { roll(part, {radius}, plan); });
+    return refusal_of([&] { roll(part, {radius}, plan); });
   };
   EXPECT_THAT(refusal({}), HasSubstr("exactly one of distance, rotation and duration"));
   RollPlan both = by_distance(0, 1);
@@ -478,7 +469,7 @@ TEST(Rolling, plans_that_make_no_sense_are_refused) {
 
 TEST(Rolling, too_few_rows_to_tell_wrapped_angles_apart_are_refused) {
   const Part part = part_of("circle");
-  EXPECT_THAT(message_of([&] { roll(part, {0.5}, by_distance(0, 1.6, 2)); }), HasSubstr("take more rows"));
+  EXPECT_THAT(refusal_of([&] { roll(part, {0.5}, by_distance(0, 1.6, 2)); }), HasSubstr("take more rows"));
   EXPECT_NO_THROW(roll(part, {0.5}, by_distance(0, 1.6, 5)));
 }
 

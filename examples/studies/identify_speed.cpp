@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "identify_times.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/rolling.hpp"
@@ -39,17 +39,6 @@ const std::vector<Question> kQuestions = {{"3 readings within 0.005 rad", 3, 0.0
                                           {"200 rows, contact 1e-4 P, angle 0.005", 0, 0, {1e-4, 0.005}},
                                           {"the same with slip 0.002", 0, 0, {1e-4, 0.005, 0.002}}};
 
-Catalog splines(const std::string& file) {
-  std::vector<rollfix::CatalogSource> sources;
-  for (int k = 1; k <= 200; ++k) {
-    const std::string shape = fmt::format("gallery:spline,n=9,wobble=0.2,seed={}", k);
-    sources.push_back({shape, shape});
-  }
-  std::filesystem::remove(file);
-  rollfix::build_catalog(file, sources);
-  return Catalog(file);
-}
-
 rollfix::Problem problem_of(const Question& question, const Part& part, double s, std::uint64_t seed) {
   const double P = part.perimeter();
   rollfix::Problem problem{part, std::vector<rollfix::Reading>{}};
@@ -70,15 +59,6 @@ rollfix::Problem problem_of(const Question& question, const Part& part, double s
   problem.felt.log = rollfix::noisy_roll(part, problem.fingers[0], plan, *problem.noise, seed).log;
   return problem;
 }
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-struct Seen {
-  std::vector<double> milliseconds;
-  double searched = 0;
-  double listed = 0;
-  std::size_t found = 0;  // the true part among them
-};
 
 void look(const Catalog& catalog, std::size_t number, const rollfix::Problem& problem, Seen& seen) {
   rollfix::IdentifyOptions options;

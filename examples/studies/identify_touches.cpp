@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "identify_times.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
 
@@ -36,17 +36,6 @@ const std::vector<Question> kQuestions = {{"3 with normals, 0.0003 P, 0.5 deg", 
                                           {"6 without normals, 0.0003 P", 6, 3e-4, 0},
                                           {"8 without normals, 0.0003 P", 8, 3e-4, 0}};
 
-Catalog splines(const std::string& file) {
-  std::vector<rollfix::CatalogSource> sources;
-  for (int k = 1; k <= 200; ++k) {
-    const std::string shape = fmt::format("gallery:spline,n=9,wobble=0.2,seed={}", k);
-    sources.push_back({shape, shape});
-  }
-  std::filesystem::remove(file);
-  rollfix::build_catalog(file, sources);
-  return Catalog(file);
-}
-
 rollfix::TouchProblem problem_of(const Question& question, const Part& part, std::mt19937_64& random) {
   const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
   std::normal_distribution<double> normal;
@@ -68,15 +57,6 @@ rollfix::TouchProblem problem_of(const Question& question, const Part& part, std
   problem.noise = noise;
   return problem;
 }
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-struct Seen {
-  std::vector<double> milliseconds;
-  double searched = 0;
-  double listed = 0;
-  std::size_t found = 0;  // the true part among them
-};
 
 Seen look(const Catalog& catalog, const Question& question, std::size_t count, bool use_index) {
   std::mt19937_64 random(7);

@@ -15,6 +15,7 @@
 #include <random>
 #include <string>
 
+#include "families.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/outline.hpp"
@@ -33,20 +34,6 @@ constexpr double kAngle = 5e-3;         // radians
 constexpr double kOfIncrements = 0.1;   // of both, where errors add up
 constexpr double kSigmas = 5;           // of a binomial count
 constexpr double kMostTold = 1.0 / 200;
-
-struct Family {
-  const char* shape;
-  double radius_share;  // of the perimeter: the finger's
-};
-constexpr std::array<Family, 9> kFamilies = {{{"ellipse,a=2,b=1", 0.03},
-                                              {"cam", 0.03},
-                                              {"spline,n=9,seed=7,wobble=0.2", 0.03},
-                                              {"limacon", 0.03},
-                                              {"gear", 0.002},
-                                              {"stadium", 0.03},
-                                              {"reuleaux", 0.03},
-                                              {"superellipse", 0.03},
-                                              {"naca", 0.03}}};
 
 enum class Mistake { none, eccentric, drift, turned };
 constexpr std::array<const char*, 4> kMistakes = {"none", "psi off by 1 deg once around the finger",

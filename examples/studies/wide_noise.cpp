@@ -12,6 +12,7 @@
 #include <random>
 #include <string>
 
+#include "families.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/outline.hpp"
@@ -27,20 +28,6 @@ constexpr double kContactShare = 1e-3;  // of the perimeter: standard deviation
 constexpr double kSlip = 5e-3;
 constexpr double kSlipsHere = 5;  // times as much, on its own over each hundredth of the perimeter
 constexpr double kSigmas = 5;     // of a binomial count
-
-struct Family {
-  const char* shape;
-  double radius_share;  // of the perimeter: the finger's
-};
-constexpr std::array<Family, 9> kFamilies = {{{"ellipse,a=2,b=1", 0.03},
-                                              {"cam", 0.03},
-                                              {"spline,n=9,seed=7,wobble=0.2", 0.03},
-                                              {"limacon", 0.03},
-                                              {"gear", 0.002},
-                                              {"stadium", 0.03},
-                                              {"reuleaux", 0.03},
-                                              {"superellipse", 0.03},
-                                              {"naca", 0.03}}};
 
 struct Line {
   double angle;  // noise, radians

@@ -77,6 +77,19 @@ def roll_csv():
     return REPOSITORY / "examples/roll.csv"
 
 
+@pytest.fixture(scope="session")
+def frame(roll_csv):
+    """The same rows as a data frame."""
+    return pytest.importorskip("pandas").read_csv(roll_csv, comment="#")
+
+
+@pytest.fixture(scope="session")
+def ask(wing, noise):
+    """Locates the wing by a log of a disk."""
+    usual = {"finger": rollfix.Disk(10), "noise": noise}
+    return lambda log, **options: wing.locate(log=log, **{**usual, **options})
+
+
 def reading_of(part, s, length):
     """What a roll from s over this length reads, from the turning function alone."""
     return length, float(part.turning(s + length) - part.turning(s))

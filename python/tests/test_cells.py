@@ -9,16 +9,6 @@ from rollfix import Disk, InputError, Part
 pandas = pytest.importorskip("pandas")
 
 
-@pytest.fixture(scope="module")
-def frame(roll_csv):
-    return pandas.read_csv(roll_csv, comment="#")
-
-
-@pytest.fixture(scope="module")
-def ask(wing, noise):
-    return lambda log, **options: wing.locate(log=log, finger=Disk(10), noise=noise, **options)
-
-
 def holding(frame, cell, row=7):
     return frame.assign(u=[cell if k == row else value for k, value in enumerate(frame.u.astype(object))])
 

@@ -13,11 +13,6 @@ def frame(roll_csv):
     return pandas.read_csv(roll_csv, comment="#")[["time", "u", "psi"]]
 
 
-@pytest.fixture(scope="module")
-def ask(wing, noise):
-    return lambda log, **options: wing.locate(log=log, finger=Disk(10), noise=noise, **options)
-
-
 @pytest.mark.parametrize("names", [{"u": 0, "psi": 7, "time": 3}, {"u": ("f", "u"), "psi": ("f", "psi"), "time": ("", "t")}])
 def test_names_may_be_numbers_or_tuples(ask, frame, names):
     log = frame.rename(columns=names) if 0 in names.values() else frame.set_axis(

@@ -10,18 +10,8 @@ import rollfix
 from rollfix import Disk, Noise
 from rollfix._words import diagnosis_in_python, in_python
 
-pandas = pytest.importorskip("pandas")
+pytest.importorskip("pandas")
 SOURCE = pathlib.Path(__file__).resolve().parents[2] / "src/documents/diagnosis_text.cpp"
-
-
-@pytest.fixture(scope="module")
-def frame(roll_csv):
-    return pandas.read_csv(roll_csv, comment="#")
-
-
-@pytest.fixture(scope="module")
-def ask(wing, noise):
-    return lambda log, **options: wing.locate(**{"log": log, "finger": Disk(10), "noise": noise, **options})
 
 
 def typed(cure):

@@ -10,16 +10,6 @@ pandas = pytest.importorskip("pandas")
 
 
 @pytest.fixture(scope="module")
-def frame(roll_csv):
-    return pandas.read_csv(roll_csv, comment="#")
-
-
-@pytest.fixture(scope="module")
-def ask(wing, noise):
-    return lambda log, **options: wing.locate(log=log, finger=Disk(10), noise=noise, **options)
-
-
-@pytest.fixture(scope="module")
 def expected(ask, roll_csv):
     return ask(roll_csv)
 

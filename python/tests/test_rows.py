@@ -13,16 +13,6 @@ pandas = pytest.importorskip("pandas")
 TABLE = Numbering({"log": [1]})
 
 
-@pytest.fixture(scope="module")
-def frame(roll_csv):
-    return pandas.read_csv(roll_csv, comment="#")
-
-
-@pytest.fixture(scope="module")
-def ask(wing, noise):
-    return lambda log, **options: wing.locate(log=log, finger=Disk(10), noise=noise, **options)
-
-
 def at(frame, row, **cells):
     """The frame with other cells in one row."""
     return frame.assign(**{name: np.where(np.arange(len(frame)) == row, cell, frame[name]) for name, cell in cells.items()})

@@ -13,16 +13,6 @@ pandas = pytest.importorskip("pandas")
 DAY = pandas.Timestamp("2026-01-01")
 
 
-@pytest.fixture(scope="module")
-def frame(roll_csv):
-    return pandas.read_csv(roll_csv, comment="#")
-
-
-@pytest.fixture(scope="module")
-def ask(wing, noise):
-    return lambda log, **options: wing.locate(log=log, finger=Disk(10), noise=noise, **options)
-
-
 def dated(frame, later=0.0, zone=None):
     return frame.assign(time=DAY.tz_localize(zone) + pandas.to_timedelta(frame.time + later, unit="s"))
 

@@ -4,12 +4,7 @@ import pytest
 
 from rollfix import Disk, InputError
 
-pandas = pytest.importorskip("pandas")
-
-
-@pytest.fixture(scope="module")
-def frame(roll_csv):
-    return pandas.read_csv(roll_csv, comment="#")
+pytest.importorskip("pandas")
 
 
 @pytest.fixture

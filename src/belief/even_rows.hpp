@@ -16,6 +16,15 @@ struct Course {
 /// Of rows with noise no fewer means are taken, where few are enough.
 inline constexpr std::size_t kFewestMeans = 12;
 
+/// The fewest means, at most so many, that say what the rows say. `means_of(lots)` makes them of so many lots; none:
+/// the motion goes too uneven for that.
+template <class MeansOf>
+auto fewest_means(std::size_t most, const MeansOf& means_of) {
+  decltype(means_of(most)) means;
+  for (std::size_t lots = kFewestMeans; lots <= most && !means; lots *= 2) means = means_of(lots);
+  return means;
+}
+
 /// Whether rows follow a smooth motion, but for noise.
 bool is_even(const Course& rows);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "belief/even_rows.hpp"
@@ -121,14 +122,14 @@ std::vector<HeldRow> means(const HeldRows& rows, std::size_t lots) {
   return result;
 }
 
-/// From means to what was in their middles; false: they go too uneven for that.
-bool to_middles(std::vector<HeldRow>& means, const std::vector<Measured>& numbers) {
+/// What was in the middles of such means; none: they go too uneven for that.
+std::optional<std::vector<HeldRow>> middles_of(std::vector<HeldRow> means, const std::vector<Measured>& numbers) {
   for (const Measured& measured : numbers) {
     const auto middles = belief::at_middles(course_of(means, measured));
-    if (!middles) return false;
+    if (!middles) return std::nullopt;
     for (std::size_t k = 0; k < means.size(); ++k) measured.of(means[k]) = (*middles)[k];
   }
-  return true;
+  return means;
 }
 
 HeldRows between_ends(const HeldRows& rows, std::vector<HeldRow> means) {
@@ -149,9 +150,10 @@ HeldRows averaged(const HeldRows& rows) {
   const bool is_smooth =
       rows.fingers() == 1 && rows.outlier_share == 0 && count >= 2 * belief::kFewestMeans &&
       std::ranges::all_of(numbers, [&](const Measured& one) { return belief::is_even(course_of(all, one)); });
-  for (std::size_t lots = belief::kFewestMeans; is_smooth && 2 * lots <= count && lots < kMostMeans; lots *= 2) {
-    std::vector<HeldRow> few = means(rows, lots);
-    if (to_middles(few, numbers)) return between_ends(rows, std::move(few));
+  const auto middles = [&](std::size_t lots) { return middles_of(means(rows, lots), numbers); };
+  if (is_smooth) {
+    auto few = belief::fewest_means(std::min(count / 2, kMostMeans - 1), middles);
+    if (few) return between_ends(rows, *std::move(few));
   }
   return rows.rows.size() <= kMostMeans ? rows : between_ends(rows, means(rows, kMostMeans));
 }

@@ -141,7 +141,6 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
     count += 1;
   }
   if (count > 0) placed.middle /= count;
-  placed.is_known = true;
   if (fingers() == 1 && wheels() > 0) face_wheels(state, row);
 }
 
@@ -185,7 +184,6 @@ HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const 
 void HoldFit::settle(HeldState& state) const {
   state.square = state.cost = state.right_square = state.prior_square = state.strays = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-    if (!state.placed[row].is_known) guess(state, row);
     RowEquations now = settled(state, row);
     if (now.strays > kAnyStray) now = settled_by_fewer(state, row, now);
     state.square += now.square;

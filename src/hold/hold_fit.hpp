@@ -21,8 +21,7 @@ using UnknownsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 
 /// The part at one instant: where a point in its middle is in the world, and how it is turned.
 struct Placed {
   Vec2 middle = Vec2::Zero();
-  double heading = 0;  // radians
-  bool is_known = false;
+  double heading = 0;     // radians
   double heading_sd = 0;  // with noise, with the unknowns given
 };
 

@@ -147,7 +147,7 @@ std::vector<HoldFit::Facing> HoldFit::facings(const HeldState& state, std::size_
 /// The part turned to a heading about where the finger touches it.
 HoldFit::Facing HoldFit::faced(std::size_t row, const Vec2& point, const Vec2& touched, double heading) const {
   Facing one;
-  one.placed = {touched - Pose{0, 0, heading}.turned(point - middle_), heading, true};
+  one.placed = {touched - Pose{0, 0, heading}.turned(point - middle_), heading};
   for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
     const Pose back{0, 0, -heading};
     const Vec2 pin = middle_ + back.turned(rows_.rows[row].pins[wheel].at - one.placed.middle);

@@ -28,6 +28,15 @@ std::size_t Knots::span_at(double t) const {
   return static_cast<std::size_t>(after - breaks.begin()) - 1;
 }
 
+Knots even_knots(double lo, double hi, std::size_t spans, bool closed) {
+  Knots knots{{}, std::vector<char>(spans + 1, 0), closed};
+  for (std::size_t k = 0; k < spans; ++k) {
+    knots.breaks.push_back(lo + (hi - lo) * static_cast<double>(k) / static_cast<double>(spans));
+  }
+  knots.breaks.push_back(hi);
+  return knots;
+}
+
 FittedSpline::FittedSpline(Knots knots, const std::vector<double>& parameters, const std::vector<Vec2>& points,
                            double stiffness)
     : knots_(std::move(knots)) {

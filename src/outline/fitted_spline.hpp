@@ -19,6 +19,9 @@ struct Knots {
   std::size_t span_at(double t) const;
 };
 
+/// So many spans of one width.
+Knots even_knots(double lo, double hi, std::size_t spans, bool closed);
+
 /// The cubic spline (C2 but for sharp breaks) of least squared distance to points at given parameters.
 class FittedSpline {
  public:

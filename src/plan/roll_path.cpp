@@ -36,25 +36,6 @@ std::vector<double> slopes_of(const std::vector<double>& knots, const std::vecto
   return slopes;
 }
 
-struct Cubic {
-  double from = 0;
-  double to = 0;
-  double slope_from = 0;
-  double slope_to = 0;
-  double width = 0;
-
-  double value(double share) const {
-    const double rest = 1 - share;
-    return rest * rest * ((1 + 2 * share) * from + share * width * slope_from) +
-           share * share * ((1 + 2 * rest) * to - rest * width * slope_to);
-  }
-  double slope(double share) const {
-    const double rest = 1 - share;
-    return 6 * share * rest * (to - from) / width + rest * (1 - 3 * share) * slope_from +
-           share * (3 * share - 2) * slope_to;
-  }
-};
-
 std::vector<double> tilts(const ContactWay& b, const std::vector<ContactPlace>& at_a, const std::vector<double>& y) {
   const std::vector<ContactPlace> at_b = b.places(y);
   std::vector<double> tilts(y.size());
@@ -114,9 +95,39 @@ RollPath::RollPath(const ContactWay& a, const ContactWay* b, std::vector<double>
   for (std::size_t k = 0; k < knots_.size(); ++k) slopes_.push_back({slopes_a[k], slopes_b[k]});
 }
 
-std::size_t RollPath::piece(double at) const {
-  const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, at);
-  return static_cast<std::size_t>(next - knots_.begin()) - 1;
+struct RollPath::Cubic {
+  double from = 0;
+  double to = 0;
+  double slope_from = 0;
+  double slope_to = 0;
+  double width = 0;
+
+  double value(double share) const {
+    const double rest = 1 - share;
+    return rest * rest * ((1 + 2 * share) * from + share * width * slope_from) +
+           share * share * ((1 + 2 * rest) * to - rest * width * slope_to);
+  }
+  double slope(double share) const {
+    const double rest = 1 - share;
+    return 6 * share * rest * (to - from) / width + rest * (1 - 3 * share) * slope_from +
+           share * (3 * share - 2) * slope_to;
+  }
+};
+
+/// Between two knots, and where in it a lambda is.
+struct RollPath::Piece {
+  Cubic a;
+  Cubic b;
+  double share = 0;
+};
+
+RollPath::Piece RollPath::piece_at(double lambda) const {
+  const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, lambda);
+  const auto k = static_cast<std::size_t>(next - knots_.begin()) - 1;
+  const double width = knots_[k + 1] - knots_[k];
+  return {{turned_[k].a, turned_[k + 1].a, slopes_[k].a, slopes_[k + 1].a, width},
+          {turned_[k].b, turned_[k + 1].b, slopes_[k].b, slopes_[k + 1].b, width},
+          (lambda - knots_[k]) / width};
 }
 
 std::vector<Turned> RollPath::turned(const std::vector<double>& at) const {
@@ -125,15 +136,11 @@ std::vector<Turned> RollPath::turned(const std::vector<double>& at) const {
   std::vector<double> lo;
   std::vector<double> hi;
   for (const double lambda : at) {
-    const std::size_t k = piece(lambda);
-    const double width = knots_[k + 1] - knots_[k];
-    const double share = (lambda - knots_[k]) / width;
-    const Cubic of_a{turned_[k].a, turned_[k + 1].a, slopes_[k].a, slopes_[k + 1].a, width};
-    const Cubic of_b{turned_[k].b, turned_[k + 1].b, slopes_[k].b, slopes_[k + 1].b, width};
-    turned.push_back({of_a.value(share), of_b.value(share)});
+    const Piece piece = piece_at(lambda);
+    turned.push_back({piece.a.value(piece.share), piece.b.value(piece.share)});
     x.push_back(turned.back().a);
-    lo.push_back(turned_[k].b);
-    hi.push_back(turned_[k + 1].b);
+    lo.push_back(piece.b.from);
+    hi.push_back(piece.b.to);
   }
   if (!squeezed_) return turned;
   const std::vector<double> y = balanced(*a_, *b_, x, lo, hi);
@@ -161,11 +168,8 @@ std::vector<Turned> RollPath::rates(const std::vector<double>& at) const {
   std::vector<double> before;
   std::vector<double> after;
   for (const double lambda : at) {
-    const std::size_t k = piece(lambda);
-    const double width = knots_[k + 1] - knots_[k];
-    const double share = (lambda - knots_[k]) / width;
-    rates.push_back({Cubic{turned_[k].a, turned_[k + 1].a, slopes_[k].a, slopes_[k + 1].a, width}.slope(share),
-                     Cubic{turned_[k].b, turned_[k + 1].b, slopes_[k].b, slopes_[k + 1].b, width}.slope(share)});
+    const Piece piece = piece_at(lambda);
+    rates.push_back({piece.a.slope(piece.share), piece.b.slope(piece.share)});
     before.push_back(std::max(0.0, lambda - kDifference));
     after.push_back(std::min(1.0, lambda + kDifference));
   }

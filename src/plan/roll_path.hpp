@@ -39,7 +39,9 @@ class RollPath {
   std::vector<Turned> rates(const std::vector<double>& at) const;
 
  private:
-  std::size_t piece(double at) const;
+  struct Cubic;
+  struct Piece;
+  Piece piece_at(double lambda) const;
   std::vector<Turned> turned(const std::vector<double>& at) const;
 
   const ContactWay* a_;

@@ -15,7 +15,7 @@
 //   kappa           Theta' a lap before: a longer L changes off by kappa dL, so that g - kappa dL = off
 //   A x = b         normal equations of x = (g, dL): `normal`, `right`
 // Follows docs/teach.md, "Closing", 1.
-// Idea: the lap ends where |p(s) - p(0)| is least, place and direction being those of the start. Where the roll goes on,
+// Idea: the lap ends where |p(s) - p(0)| is least, place and direction being those of the start. If the roll goes on,
 // the rows of both passes know L better: least squares, row on row and corner on corner, by Gauss and Newton's steps.
 namespace rollfix {
 

@@ -46,6 +46,12 @@ std::size_t TurningNodes::cubic_at(double place) const {
   return static_cast<std::size_t>(after - s.begin()) - 1;
 }
 
+void TurningNodes::add(double place, const Vec2& value_and_slope) {
+  s.push_back(place);
+  angle.push_back(value_and_slope.x());
+  slope.push_back(value_and_slope.y());
+}
+
 double TurningNodes::at(double place) const {
   const std::size_t k = cubic_at(place);
   const TurningSpan::Cubic c = cubic(k);

@@ -54,6 +54,8 @@ struct TurningNodes {
   std::size_t cubic_at(double place) const;
   double at(double place) const;
   double slope_at(double place) const;
+
+  void add(double place, const Vec2& value_and_slope);
 };
 
 /// Theta over a whole roll, run by run, each starting where the one before ends.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "outline/fitted_spline.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/pulse.hpp"
 
@@ -37,16 +36,8 @@ constexpr double kMostSlope = 3;
 /// Rows that differ by less do not: rounding of the sums that they come from, radians.
 constexpr double kSameAngle = 1e-13;
 
-Knots evenly_spaced(double lo, double hi, std::size_t spans, bool closed) {
-  Knots knots{{}, std::vector<char>(spans + 1, 0), closed};
-  for (std::size_t k = 0; k < spans; ++k) {
-    knots.breaks.push_back(lo + (hi - lo) * static_cast<double>(k) / static_cast<double>(spans));
-  }
-  knots.breaks.push_back(hi);
-  return knots;
-}
+}  // namespace
 
-/// The spline's value and slope at s, also beyond its ends.
 Vec2 value_and_slope(const FittedSpline& spline, double s) {
   const std::vector<double>& breaks = spline.knots().breaks;
   const std::size_t span = spline.knots().span_at(s);
@@ -54,6 +45,18 @@ Vec2 value_and_slope(const FittedSpline& spline, double s) {
   const Jet jet = spline.spans()[span].jet((s - breaks[span]) / width);
   return {jet.position.x(), jet.first.x() / width};
 }
+
+TurningNodes nodes_at_breaks(const FittedSpline& spline) {
+  TurningNodes nodes;
+  for (const double s : spline.knots().breaks) nodes.add(s, value_and_slope(spline, s));
+  if (spline.knots().closed) {
+    nodes.angle.back() = nodes.angle.front();
+    nodes.slope.back() = nodes.slope.front();
+  }
+  return nodes;
+}
+
+namespace {
 
 /// A least-squares spline through scalar rows.
 class RowSpline {
@@ -112,12 +115,6 @@ class RowSpline {
   std::vector<Vec2> points_;
 };
 
-void add_node(TurningNodes& nodes, double s, const Vec2& value_and_slope) {
-  nodes.s.push_back(s);
-  nodes.angle.push_back(value_and_slope.x());
-  nodes.slope.push_back(value_and_slope.y());
-}
-
 }  // namespace
 
 /// Fritsch and Carlson's condition: where rows only grow or only fall, or stay, the cubics do as well. At a row that is
@@ -161,11 +158,11 @@ TurningNodes through_rows(const TurningRun& run) {
   }
   knots.sharp.assign(knots.breaks.size(), 0);
   const FittedSpline spline = RowSpline(run.s, run.angle).through(std::move(knots));
-  if (run.lo < run.s.front()) add_node(nodes, run.lo, value_and_slope(spline, run.lo));
+  if (run.lo < run.s.front()) nodes.add(run.lo, value_and_slope(spline, run.lo));
   for (std::size_t k = 0; k < count; ++k) {
-    add_node(nodes, run.s[k], {run.angle[k], value_and_slope(spline, run.s[k]).y()});
+    nodes.add(run.s[k], {run.angle[k], value_and_slope(spline, run.s[k]).y()});
   }
-  if (run.hi > run.s.back()) add_node(nodes, run.hi, value_and_slope(spline, run.hi));
+  if (run.hi > run.s.back()) nodes.add(run.hi, value_and_slope(spline, run.hi));
   return nodes;
 }
 
@@ -180,27 +177,21 @@ void make_monotone_within(TurningNodes& nodes, bool round, const TurningRun& run
   nodes = monotone;
 }
 
-TurningNodes at_breaks(const FittedSpline& spline) {
-  TurningNodes nodes;
-  for (const double s : spline.knots().breaks) add_node(nodes, s, value_and_slope(spline, s));
-  return nodes;
-}
-
 }  // namespace
 
 TurningNodes fit(const TurningRun& run, const TurningFit& how) {
   TurningNodes nodes;
   if (run.s.size() == 1) {  // nothing says that it bends
-    add_node(nodes, run.lo, {run.angle[0], 0});
-    add_node(nodes, run.hi, {run.angle[0], 0});
+    nodes.add(run.lo, {run.angle[0], 0});
+    nodes.add(run.hi, {run.angle[0], 0});
     return nodes;
   }
   bool met = false;
   const std::size_t few = how.rows_are_exact ? run.s.size() / kRowsPerSpan : run.s.size();
   const FittedSpline smooth =
-      RowSpline(run.s, run.angle).within(how.tolerance, evenly_spaced(run.lo, run.hi, 1, false), few, met);
+      RowSpline(run.s, run.angle).within(how.tolerance, even_knots(run.lo, run.hi, 1, false), few, met);
   const bool takes_few = met && smooth.knots().spans() <= few;
-  nodes = how.rows_are_exact && !takes_few ? through_rows(run) : at_breaks(smooth);
+  nodes = how.rows_are_exact && !takes_few ? through_rows(run) : nodes_at_breaks(smooth);
   make_monotone_within(nodes, false, run, how.tolerance);
   return nodes;
 }
@@ -218,7 +209,7 @@ TurningNodes fit_round(const TurningRun& run, double turn, const TurningFit& how
   const RowSpline rows(s, rest);
   bool met = false;
   const std::size_t few = how.rows_are_exact ? s.size() / kRowsPerSpan : s.size();
-  const FittedSpline smooth = rows.within(how.tolerance, evenly_spaced(run.lo, run.hi, kFirstSpans, true), few, met);
+  const FittedSpline smooth = rows.within(how.tolerance, even_knots(run.lo, run.hi, kFirstSpans, true), few, met);
   TurningNodes nodes;
   const bool takes_few = met && smooth.knots().spans() <= few;
   if (how.rows_are_exact && !takes_few && s.size() >= kFirstSpans) {
@@ -226,12 +217,10 @@ TurningNodes fit_round(const TurningRun& run, double turn, const TurningFit& how
     knots.breaks.push_back(s.front() + period);
     knots.sharp.assign(knots.breaks.size(), 0);
     const FittedSpline exact = rows.through(std::move(knots));
-    for (std::size_t k = 0; k < s.size(); ++k) add_node(nodes, s[k], {rest[k], value_and_slope(exact, s[k]).y()});
-    add_node(nodes, s.front() + period, {rest.front(), nodes.slope.front()});
+    for (std::size_t k = 0; k < s.size(); ++k) nodes.add(s[k], {rest[k], value_and_slope(exact, s[k]).y()});
+    nodes.add(s.front() + period, {rest.front(), nodes.slope.front()});
   } else {
-    nodes = at_breaks(smooth);
-    nodes.angle.back() = nodes.angle.front();
-    nodes.slope.back() = nodes.slope.front();
+    nodes = nodes_at_breaks(smooth);
   }
   for (std::size_t k = 0; k < nodes.s.size(); ++k) {
     nodes.angle[k] += ramp(nodes.s[k]);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "outline/fitted_spline.hpp"
 #include "rollfix/pulse.hpp"
 #include "teach/turning_fit.hpp"
 
@@ -37,15 +36,6 @@ constexpr std::size_t kFirstRoundSpans = 4;
 /// Theta is made monotone where that costs no more than this much chi-square: three standard deviations.
 constexpr double kMonotoneCost = 9;
 
-Knots even_knots(double lo, double hi, std::size_t spans, bool closed) {
-  Knots knots{{}, std::vector<char>(spans + 1, 0), closed};
-  for (std::size_t k = 0; k <= spans; ++k) {
-    knots.breaks.push_back(lo + (hi - lo) * static_cast<double>(k) / static_cast<double>(spans));
-  }
-  knots.breaks.back() = hi;
-  return knots;
-}
-
 /// Scalar rows by arc length, with a second value that is fitted like the first: the ramp.
 struct ScalarRows {
   std::vector<double> s;  // rising
@@ -57,11 +47,6 @@ Vec2 value_of(const FittedSpline& spline, double s) {
   const std::vector<double>& breaks = spline.knots().breaks;
   const std::size_t span = spline.knots().span_at(s);
   return spline.spans()[span].jet((s - breaks[span]) / (breaks[span + 1] - breaks[span])).position;
-}
-
-double slope_of(const FittedSpline& spline, std::size_t span, double share) {
-  const std::vector<double>& breaks = spline.knots().breaks;
-  return spline.spans()[span].jet(share).first.x() / (breaks[span + 1] - breaks[span]);
 }
 
 /// Whether rows [first, last) are off by more than chance.
@@ -125,20 +110,6 @@ void add_sums(const FittedSpline& spline, const ScalarRows& rows, double scale, 
   }
 }
 
-TurningNodes nodes_at_breaks(const FittedSpline& spline) {
-  TurningNodes nodes;
-  const std::size_t spans = spline.knots().spans();
-  nodes.s = spline.knots().breaks;
-  for (const double s : nodes.s) nodes.angle.push_back(value_of(spline, s).x());
-  for (std::size_t span = 0; span < spans; ++span) nodes.slope.push_back(slope_of(spline, span, 0));
-  nodes.slope.push_back(slope_of(spline, spans - 1, 1));
-  if (spline.knots().closed) {
-    nodes.angle.back() = nodes.angle.front();
-    nodes.slope.back() = nodes.slope.front();
-  }
-  return nodes;
-}
-
 double squares_of(const TurningNodes& nodes, const TurningRun& run) {
   double sum = 0;
   for (std::size_t k = 0; k < run.s.size(); ++k) {
@@ -190,17 +161,12 @@ ScalarRows slopes_of(const TurningRun& run, double sd, double& step) {
 TurningNodes integral_of(const FittedSpline& slope) {
   TurningNodes nodes;
   const std::vector<double>& breaks = slope.knots().breaks;
-  const auto add = [&](double s, double angle, double curvature) {
-    nodes.s.push_back(s);
-    nodes.angle.push_back(angle);
-    nodes.slope.push_back(curvature);
-  };
-  add(breaks.front(), 0, slope.spans().front().jet(0).position.x());
+  nodes.add(breaks.front(), {0, slope.spans().front().jet(0).position.x()});
   for (std::size_t span = 0; span + 1 < breaks.size(); ++span) {
     const double half = 0.5 * (breaks[span + 1] - breaks[span]);
     const auto at = [&](double share) { return slope.spans()[span].jet(share).position.x(); };
-    add(breaks[span] + half, nodes.angle.back() + half / 6 * (at(0) + 4 * at(0.25) + at(0.5)), at(0.5));
-    add(breaks[span + 1], nodes.angle.back() + half / 6 * (at(0.5) + 4 * at(0.75) + at(1)), at(1));
+    nodes.add(breaks[span] + half, {nodes.angle.back() + half / 6 * (at(0) + 4 * at(0.25) + at(0.5)), at(0.5)});
+    nodes.add(breaks[span + 1], {nodes.angle.back() + half / 6 * (at(0.5) + 4 * at(0.75) + at(1)), at(1)});
   }
   return nodes;
 }

@@ -2,47 +2,32 @@
 
 #include <cmath>
 #include <cstddef>
-#include <exception>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <string>
 
-#include "check.hpp"
 #include "hold/hold_cases.hpp"
 #include "hold/rig_cases.hpp"
 #include "random_outlines.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
+#include "verified.hpp"
 
 // Certificates of holds and of the rig, and random questions for them.
 namespace hold_certificates {
 
-using Json = nlohmann::json;
+using namespace verified;
 using rig_cases::Held;
 using rollfix::HoldAnswer;
 using rollfix::HoldProblem;
 using rollfix::Part;
-using rollfix_verify::Verdict;
 using touch_cases::uniform;
 
 inline Json certificate(const HoldProblem& problem, const HoldAnswer& answer) {
   return Json::parse(rollfix::format_certificate(rollfix::certify_holds(problem, answer)));
 }
 inline Json certificate(const HoldProblem& problem) { return certificate(problem, rollfix::solve(problem)); }
-inline Verdict checked(const Json& certificate) { return rollfix_verify::check(certificate.dump()); }
-
-/// What the verifier says, in its first line.
-inline std::string words(const Json& certificate) {
-  try {
-    const std::string all = rollfix_verify::described(checked(certificate));
-    return all.substr(0, all.find('\n'));
-  } catch (const std::exception& error) {
-    return std::string("no certificate: ") + error.what();
-  }
-}
-inline bool is_proved(const Json& certificate) { return words(certificate).starts_with("proved: "); }
 
 /// The same with tolerances that a robot has.
 inline HoldProblem within(HoldProblem problem, double length, double angle) {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hold/hold_certificates.hpp"
+#include "told_lies.hpp"
 
 // Lies about holds, told by one who knows the format: from a certificate that is true, one that is not.
 namespace hold_liar {
@@ -17,20 +17,10 @@ namespace hold_liar {
 using hold_certificates::Json;
 using touch_cases::uniform;
 
-/// A certificate that becomes a lie, by chance.
-struct Document {
-  Json& json;
-  std::mt19937_64& generator;
-
-  std::size_t index_in(const Json& list) {
-    return std::uniform_int_distribution<std::size_t>(0, list.size() - 1)(generator);
-  }
-  Json& any(Json& list) { return list[index_in(list)]; }
+struct Document : told_lies::Document {
   Json& any_set() { return any(json["sets"]); }
   Json& any_lie() { return any(any_set()["instants"]); }
   Json& any_instant() { return any(json["instants"]); }
-  double sign() { return uniform(generator, -1, 1) < 0 ? -1 : 1; }
-  double perimeter() const { return json["perimeter"].get<double>(); }
   bool has_wheel() const { return !json["wheels"].empty(); }
   bool has_encoder() const { return has_wheel() && !json["wheels"][0]["tolerance"]["spin"].is_null(); }
   bool has_place() const { return !json["fingers"][0]["tolerance"]["place"].is_null(); }
@@ -38,9 +28,6 @@ struct Document {
   double tolerance() const {
     return has_place() ? json["fingers"][0]["tolerance"]["place"].get<double>() : 0.01 * perimeter();
   }
-
-  static void add(Json& number, double by) { number = number.get<double>() + by; }
-  static void scale(Json& number, double by) { number = number.get<double>() * by; }
 
   /// Some contact or pin is off, so that the tolerance of lengths is tied to it.
   bool is_any_off() const {
@@ -53,10 +40,7 @@ struct Document {
   }
 };
 
-struct Lie {
-  std::string name;
-  std::function<bool(Document&)> tell;  // false: there is nothing to lie about
-};
+using Lie = told_lies::Lie<Document>;
 
 inline std::vector<Lie> about_sets() {
   return {
@@ -295,11 +279,6 @@ inline std::vector<Lie> about_the_question() {
          d.json["fingers"][0]["tolerance"]["angle"] = 1e-14;
          return true;
        }},
-      {"face up for face down",
-       [](Document& d) {
-         d.json["mirrored"] = !d.json["mirrored"].get<bool>();
-         return true;
-       }},
       {"a reach of nothing, which leaves no first contacts",
        [](Document& d) {
          if (d.json["fingers"][0]["kind"] == "outline") return false;
@@ -342,16 +321,6 @@ inline std::vector<Lie> about_the_question() {
          d.json["unresolved"] = Json::array({all});
          return true;
        }},
-      {"another perimeter",
-       [](Document& d) {
-         Document::scale(d.json["perimeter"], 1.001);
-         return true;
-       }},
-      {"a curve left out",
-       [](Document& d) {
-         d.json["curves"].erase(d.json["curves"].size() - 1);
-         return !d.json["curves"].empty();
-       }},
       {"another outline",
        [](Document& d) {
          Json& numbers = d.any(d.json["curves"])["numbers"];
@@ -367,9 +336,8 @@ inline std::vector<Lie> about_the_question() {
 }
 
 inline std::vector<Lie> all() {
-  std::vector<Lie> lies = about_sets();
-  for (Lie& lie : about_the_question()) lies.push_back(std::move(lie));
-  return lies;
+  return told_lies::together(told_lies::together(about_sets(), about_the_question()),
+                             told_lies::about_the_outline<Document>());
 }
 
 /// How often each kind was told, of rigs and of three and more fingers; none of them may be proved.
@@ -383,13 +351,8 @@ std::vector<int> tell(int questions, std::mt19937_64& generator, const Expect& e
                                                  : hold_certificates::random_hold_question(k / 3, generator));
     const auto has_first = [](const Json& one) { return one.contains("first"); };
     if (truth["sets"].empty() || !std::all_of(truth["sets"].begin(), truth["sets"].end(), has_first)) continue;
-    for (std::size_t i = 0; i < lies.size(); ++i) {
-      Json json = truth;
-      Document document{json, generator};
-      if (!lies[i].tell(document)) continue;
-      ++told[i];
-      expect_unproved(json, lies[i].name, k);
-    }
+    told_lies::tell_each(lies, truth, generator, told,
+                         [&](const Json& lie, const std::string& name) { expect_unproved(lie, name, k); });
   }
   return told;
 }

@@ -10,6 +10,7 @@
 
 #include "plans.hpp"
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/solve.hpp"
 #include "shapes.hpp"
@@ -95,7 +96,7 @@ TEST(Plan, says_where_outlines_would_enter_each_other_unless_they_may) {
   const Plan passing = solve(problem);
   for (const PlanMargin& margin : passing.margins) EXPECT_NE(margin.condition, Condition::apart);
   problem.clearance = 0.1;
-  EXPECT_THAT(message_of([&] { solve(problem); }), HasSubstr("leave their clearance out"));
+  EXPECT_THAT(refusal_of([&] { solve(problem); }), HasSubstr("leave their clearance out"));
 }
 
 TEST(Plan, of_a_part_face_down_is_that_of_a_part_drawn_the_other_way_round) {
@@ -302,11 +303,11 @@ TEST(Plan, of_a_jaw_and_a_disk_rolls_as_well) {
 }
 
 TEST(Plan, says_what_contradicts_itself) {
-  EXPECT_THAT(message_of([] { solve(two(ellipse(), finger(disk(0.3), 1), finger(disk(0.3), 4))); }),
+  EXPECT_THAT(refusal_of([] { solve(two(ellipse(), finger(disk(0.3), 1), finger(disk(0.3), 4))); }),
               HasSubstr("expected how far finger a is to roll"));
-  EXPECT_THAT(message_of([] { solve(two(ellipse(), finger(disk(0.3), 1, 0), finger(disk(0.3), 4))); }),
+  EXPECT_THAT(refusal_of([] { solve(two(ellipse(), finger(disk(0.3), 1, 0), finger(disk(0.3), 4))); }),
               HasSubstr("nothing would move"));
-  EXPECT_THAT(message_of([] { solve(one(ellipse(), wheel(0.3, 1))); }), HasSubstr("a wheel is finger b"));
+  EXPECT_THAT(refusal_of([] { solve(one(ellipse(), wheel(0.3, 1))); }), HasSubstr("a wheel is finger b"));
 }
 
 TEST(Plan, tells_whoever_proposes_rolls_why_one_can_not_be_done) {

@@ -7,6 +7,7 @@
 
 #include "plans.hpp"
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/outline.hpp"
 
 namespace rollfix::plan_wheel_test {
@@ -61,13 +62,13 @@ TEST(PlanWheel, of_an_ellipse_across_its_short_axis_is_in_balance_on_the_other_e
 TEST(PlanWheel, is_told_where_it_would_be_in_balance) {
   PlanProblem problem = squeezed(jaw(), 0.2);
   problem.fingers[1].start = 6.2;
-  EXPECT_THAT(message_of([&] { solve(problem); }), HasSubstr("give as its start t = 7.31"));
+  EXPECT_THAT(refusal_of([&] { solve(problem); }), HasSubstr("give as its start t = 7.31"));
 }
 
 TEST(PlanWheel, is_refused_a_length_of_its_own) {
   PlanProblem problem = squeezed(jaw(), 0.2);
   problem.fingers[1].length = 0.2;
-  EXPECT_THAT(message_of([&] { solve(problem); }), HasSubstr("leave the second length out"));
+  EXPECT_THAT(refusal_of([&] { solve(problem); }), HasSubstr("leave the second length out"));
 }
 
 TEST(PlanWheel, whose_part_rolls_out_is_no_plan_though_no_reader_could_unwrap_its_few_rows) {

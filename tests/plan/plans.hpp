@@ -165,14 +165,4 @@ inline const rollfix::PlanMargin& margin_of(const Plan& plan, rollfix::Condition
   throw std::runtime_error(std::string("no margin of ") + rollfix::name_of(condition));
 }
 
-template <class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const rollfix::InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 }  // namespace plans

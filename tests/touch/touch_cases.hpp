@@ -63,6 +63,15 @@ inline Part bracket() {
   return polygon({{0, 0}, {60, 0}, {60, 18}, {25, 18}, {20, 23}, {20, 45}, {8, 45}, {0, 37}}, "bracket");
 }
 
+/// "polygon", "bracket", or a shape of the gallery, whose '%' the seed takes the place of.
+inline Part part_named(std::string name, int seed, std::mt19937_64& generator) {
+  if (name == "polygon") return random_polygon(generator);
+  if (name == "bracket") return bracket();
+  const std::size_t at = name.find('%');
+  if (at != std::string::npos) name.replace(at, 1, std::to_string(seed));
+  return rollfix::load_part(name);
+}
+
 /// The boundary as many points: to look for what a disk would hit.
 inline std::vector<Vec2> dense(const Part& part) { return part.polyline(0, part.perimeter(), 4000); }
 

@@ -2,27 +2,24 @@
 
 #include <cmath>
 #include <cstddef>
-#include <exception>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <random>
 #include <string>
 
-#include "check.hpp"
 #include "outline/turn.hpp"
 #include "random_outlines.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
 #include "touch/touch_cases.hpp"
+#include "verified.hpp"
 
 // Certificates of touches, and random questions for them.
 namespace touch_certificates {
 
-using Json = nlohmann::json;
+using namespace verified;
 using namespace touch_cases;
-using rollfix_verify::Verdict;
 
 inline Json certificate(const TouchAnswer& answer) {
   return Json::parse(rollfix::format_certificate(rollfix::certify_touches(answer)));
@@ -31,18 +28,6 @@ inline Json certificate(TouchProblem problem) {
   problem.diagnose = false;
   return certificate(rollfix::solve(problem));
 }
-inline Verdict checked(const Json& certificate) { return rollfix_verify::check(certificate.dump()); }
-
-/// What the verifier says, in its first line.
-inline std::string words(const Json& certificate) {
-  try {
-    const std::string all = rollfix_verify::described(checked(certificate));
-    return all.substr(0, all.find('\n'));
-  } catch (const std::exception& error) {
-    return std::string("no certificate: ") + error.what();
-  }
-}
-inline bool is_proved(const Json& certificate) { return words(certificate).starts_with("proved: "); }
 
 /// Touches that are within a tolerance of length, and of angle.
 inline TouchProblem within(const Part& part, std::vector<MeasuredTouch> touches, double length, double angle = 0.02) {

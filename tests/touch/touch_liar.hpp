@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "told_lies.hpp"
 #include "touch/touch_certificates.hpp"
 
 // Lies about touches, told by one who knows the format: from a certificate that is true, one that is not, with what
@@ -17,19 +17,8 @@ namespace touch_liar {
 using touch_cases::uniform;
 using touch_certificates::Json;
 
-/// A certificate that becomes a lie, by chance.
-struct Document {
-  Json& json;
-  std::mt19937_64& generator;
-
-  Json& any(const char* list) {
-    const std::size_t count = json[list].size();
-    return json[list][std::uniform_int_distribution<std::size_t>(0, count - 1)(generator)];
-  }
-  std::size_t index_of_any_pose() {
-    return std::uniform_int_distribution<std::size_t>(0, json["poses"].size() - 1)(generator);
-  }
-  double sign() { return uniform(generator, -1, 1) < 0 ? -1 : 1; }
+struct Document : told_lies::Document {
+  Json& any(const char* list) { return told_lies::Document::any(json[list]); }
   double tolerance() const {
     return json[json["touches"].empty() ? "rolls" : "touches"][0]["tolerance"][0].get<double>();
   }
@@ -53,9 +42,6 @@ struct Document {
     return false;
   }
 
-  static void add(Json& number, double by) { number = number.get<double>() + by; }
-  static void scale(Json& number, double by) { number = number.get<double>() * by; }
-
   /// Rewrites how far the contacts are off, in other tolerances.
   void rescale_off(double by) {
     for (Json& pose : json["poses"]) {
@@ -66,18 +52,15 @@ struct Document {
   }
 };
 
-struct Lie {
-  std::string name;
-  std::function<bool(Document&)> tell;  // false: there is nothing to lie about
-};
+using Lie = told_lies::Lie<Document>;
 
 inline std::vector<Lie> about_poses() {
   return {
       {"a set left out",
        [](Document& d) {
          if (d.any_set() == nullptr) return false;
-         std::size_t k = d.index_of_any_pose();
-         while (!d.json["poses"][k].contains("extent")) k = d.index_of_any_pose();
+         std::size_t k = d.index_in(d.json["poses"]);
+         while (!d.json["poses"][k].contains("extent")) k = d.index_in(d.json["poses"]);
          // What another set holds as well need not be there.
          d.json["poses"].erase(k);
          return d.json["poses"].empty();
@@ -152,7 +135,7 @@ inline std::vector<Lie> about_poses() {
        }},
       {"a contact at another s",
        [](Document& d) {
-         Document::add(d.any("poses")["contacts"][0]["s"], 0.1 * d.json["perimeter"].get<double>());
+         Document::add(d.any("poses")["contacts"][0]["s"], 0.1 * d.perimeter());
          return true;
        }},
       {"another tangent",
@@ -219,11 +202,6 @@ inline std::vector<Lie> about_the_question() {
          d.json["radius"] = -d.tolerance();
          return true;
        }},
-      {"face up for face down",
-       [](Document& d) {
-         d.json["mirrored"] = !d.json["mirrored"].get<bool>();
-         return true;
-       }},
       {"a reach of nothing, which leaves no pose",
        [](Document& d) {
          d.json["reach"] = {{"arcs", Json::array()}, {"corners", Json::array()}};
@@ -286,21 +264,11 @@ inline std::vector<Lie> about_the_question() {
          d.json["closed"] = true;
          return true;
        }},
-      {"another perimeter",
-       [](Document& d) {
-         Document::scale(d.json["perimeter"], 1.001);
-         return true;
-       }},
-      {"a curve left out",
-       [](Document& d) {
-         d.json["curves"].erase(d.json["curves"].size() - 1);
-         return d.json["curves"].size() > 0;
-       }},
       {"another outline",
        [](Document& d) {
          Json& numbers = d.any("curves")["numbers"];
          if (numbers.size() < 4) return false;
-         Document::add(numbers[0], 0.01 * d.json["perimeter"].get<double>());
+         Document::add(numbers[0], 0.01 * d.perimeter());
          return true;
        }},
       {"a number that is none",
@@ -312,9 +280,8 @@ inline std::vector<Lie> about_the_question() {
 }
 
 inline std::vector<Lie> all() {
-  std::vector<Lie> lies = about_poses();
-  for (Lie& lie : about_the_question()) lies.push_back(std::move(lie));
-  return lies;
+  return told_lies::together(told_lies::together(about_poses(), about_the_question()),
+                             told_lies::about_the_outline<Document>());
 }
 
 /// How often each kind was told, of parts of these kinds by turns; none of them may be proved.
@@ -328,13 +295,8 @@ std::vector<int> tell(int questions, const std::vector<int>& kinds, std::mt19937
         touch_certificates::random_question(kinds[static_cast<std::size_t>(k) % kinds.size()], generator));
     const auto has_pose = [](const Json& one) { return one.contains("pose"); };
     if (truth["poses"].empty() || !std::all_of(truth["poses"].begin(), truth["poses"].end(), has_pose)) continue;
-    for (std::size_t i = 0; i < lies.size(); ++i) {
-      Json json = truth;
-      Document document{json, generator};
-      if (!lies[i].tell(document)) continue;
-      ++told[i];
-      expect_unproved(json, lies[i].name, k);
-    }
+    told_lies::tell_each(lies, truth, generator, told,
+                         [&](const Json& lie, const std::string& name) { expect_unproved(lie, name, k); });
   }
   return told;
 }

@@ -23,12 +23,7 @@ const std::vector<std::string> kParts = {"gallery:spline,n=9,wobble=0.25,seed=%"
                                          "gallery:cam"};
 
 Part part_of(int number, std::mt19937_64& generator) {
-  std::string name = kParts[static_cast<std::size_t>(number) % kParts.size()];
-  if (name == "polygon") return random_polygon(generator);
-  if (name == "bracket") return bracket();
-  const std::size_t at = name.find('%');
-  if (at != std::string::npos) name.replace(at, 1, std::to_string(1 + number / 6));
-  return rollfix::load_part(name);
+  return part_named(kParts[static_cast<std::size_t>(number) % kParts.size()], 1 + number / 6, generator);
 }
 
 void expect_truth_listed(std::size_t fingers, bool centres) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "outline/turn.hpp"
 #include "random.hpp"
@@ -12,21 +13,9 @@ namespace touch_truth_test {
 using namespace touch_cases;
 
 /// Parts of all kinds, with their sizes between 2 and 80.
-Part part_number(int number, int seed, std::mt19937_64& generator) {
-  switch (number) {
-    case 0:
-      return rollfix::load_part("gallery:spline,n=9,wobble=0.25,seed=" + std::to_string(seed));
-    case 1:
-      return rollfix::load_part("gallery:spline,n=30,wobble=0.12,seed=" + std::to_string(seed));
-    case 2:
-      return rollfix::load_part("gallery:naca,digits=2412");
-    case 3:
-      return random_polygon(generator);
-    default:
-      return bracket();
-  }
-}
-constexpr int kParts = 5;
+const std::vector<std::string> kParts = {"gallery:spline,n=9,wobble=0.25,seed=%",
+                                         "gallery:spline,n=30,wobble=0.12,seed=%", "gallery:naca,digits=2412",
+                                         "polygon", "bracket"};
 
 struct Kind {
   std::size_t count;
@@ -50,10 +39,10 @@ template <class Check>
 void each_case(int count, const Check& check) {
   for (std::uint64_t k = 0; k < kKinds.size(); ++k) {
     const Kind& kind = kKinds[k];
-    for (int number = 0; number < kParts; ++number) {
+    for (int number = 0; number < static_cast<int>(kParts.size()); ++number) {
       for (int c = 0; c < count; ++c) {
         std::mt19937_64 generator = test_generator(10000 * k + static_cast<std::uint64_t>(1000 * number + c));
-        const Part part = part_number(number, c + 1, generator);
+        const Part part = part_named(kParts[static_cast<std::size_t>(number)], c + 1, generator);
         const double size = diagonal(part);
         const Making making{kind.count, kind.normals, kind.radius * size, kind.place * size,
                             kind.degrees * rollfix::kDegree};

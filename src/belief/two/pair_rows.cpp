@@ -146,24 +146,25 @@ std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const
 std::vector<PairRows::Block> PairRows::joined_where_even(std::vector<Block> blocks, const PairErrors& errors) const {
   if (robust_ || blocks.size() < 2 * kFewestMeans) return blocks;
   if (!std::ranges::all_of(courses_of(blocks, errors), is_even)) return blocks;
-  for (std::size_t lots = kFewestMeans; 2 * lots <= blocks.size(); lots *= 2) {
+  const auto middles = [&](std::size_t lots) {
     std::vector<Block> few(lots);
     for (std::size_t k = 0; k < lots; ++k) {
       for (std::size_t from = k * blocks.size() / lots; from < (k + 1) * blocks.size() / lots; ++from) {
         few[k] = joined(few[k], blocks[from]);
       }
     }
-    if (to_middles(few, errors)) return few;
-  }
-  return blocks;
+    return middles_of(std::move(few), errors);
+  };
+  return fewest_means(blocks.size() / 2, middles).value_or(blocks);
 }
 
-/// False: the means go too uneven for that.
-bool PairRows::to_middles(std::vector<Block>& means, const PairErrors& errors) const {
+/// What was in the middles of such means; none: they go too uneven for that.
+std::optional<std::vector<PairRows::Block>> PairRows::middles_of(std::vector<Block> means,
+                                                                 const PairErrors& errors) const {
   std::vector<std::vector<double>> middles;
   for (const Course& course : courses_of(means, errors)) {
     const auto of_course = at_middles(course);
-    if (!of_course) return false;
+    if (!of_course) return std::nullopt;
     middles.push_back(*of_course);
   }
   for (std::size_t k = 0; k < means.size(); ++k) {
@@ -174,7 +175,7 @@ bool PairRows::to_middles(std::vector<Block>& means, const PairErrors& errors) c
     mean.centres.distance = middles[3][k];
     mean.centres.direction = middles[4][k];
   }
-  return true;
+  return means;
 }
 
 std::vector<PairNode> PairRows::nodes(const std::optional<double>& facing, const std::optional<PairCentres>& centres,

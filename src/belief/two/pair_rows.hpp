@@ -45,7 +45,7 @@ class PairRows {
   Block block_of(std::size_t begin, std::size_t end, std::size_t of_median) const;
   std::vector<Block> blocks() const;
   std::vector<Course> courses_of(const std::vector<Block>& blocks, const PairErrors& errors) const;
-  bool to_middles(std::vector<Block>& means, const PairErrors& errors) const;
+  std::optional<std::vector<Block>> middles_of(std::vector<Block> means, const PairErrors& errors) const;
   std::vector<Block> joined_where_even(std::vector<Block> blocks, const PairErrors& errors) const;
   void condense();
   void halve();
