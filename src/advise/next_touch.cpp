@@ -4,52 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <numbers>
 #include <numeric>
-#include <utility>
 
+#include "advise/part_in_poses.hpp"
 #include "advise/roll_instead.hpp"
-#include "outline/turn.hpp"
+#include "advise/touch_prospects.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
-#include "touch/likely_poses.hpp"
-#include "touch/part_distance.hpp"
 
-// Notation:
-//   i, j, w_i       a pose that is left and its weight: LikelyPose::weight
-//   x_i, n_i        how far the finger goes in pose i until it touches, and the normal there: Forecast::touch
-//   c               cosine of the way's angle with the normal: `incidence`; c (x_i - x_j): how far apart the sides are
-//   V_i             variance of the side across itself, from the pose's covariance; of n_i: `turn_variance`
-//   d_ij^2          c^2 (x_i - x_j)^2 / (sd^2 + V_i + V_j), and the like of the normals: `square_apart`; closely the
-//                   squares of the touch that pose i leads to on any side of pose j: `square_off`
-//   bits            -sum over i of w_i log2(sum over j of w_j exp(-d_ij^2 / 2)), the entropy that a touch takes away
-// Follows docs/touch.md, "The next touch".
-// Idea: a touch tells two poses apart by how far away from each other it would end in them. Each way is traced in steps
-// of the part's distance (sphere tracing) and judged by the x_i, the most promising ones again by all sides.
 namespace rollfix {
 namespace touch {
 namespace {
 
-// Approaches where none are given: directions all around, and parallel ways in each.
-constexpr int kDirections = 36;
-constexpr std::size_t kParallel = 7;
-// In a hole they start at places that are so far apart, a share of its diagonal, and are looked for among so many.
-constexpr double kApart = 0.02;
-constexpr std::size_t kMostPlaces = 40;
-// A finger touches where it is nearer than this share of the diagonal; it creeps along a side no longer than so many
-// steps.
-constexpr double kTouches = 1e-6;
-constexpr int kMostTraceSteps = 400;
-// Near the part, in shares of its diagonal, the side is taken for straight, and what that leads to is looked at.
-constexpr double kNear = 1e-2;
-// A touch whose squares are at least this much says the pose is another.
-constexpr double kFarOff = 100;
-// A way along a side says less by where the finger stops than one straight at it; it is counted no less than this.
-constexpr double kLeastIncidence = 0.1;
-// A normal that may be off by so much, radians, says nothing.
-constexpr double kAnyTurn = std::numbers::pi;
 // An approach helps where it gains so much of a bit.
 constexpr double kLeastBits = 0.05;
 // Approaches gain about as much where it differs by less.
@@ -57,272 +23,6 @@ constexpr double kAboutAsManyBits = 0.02;
 // The most promising approaches are looked at again: whether a touch of one pose also fits another side of another.
 // So many pairs of poses in all.
 constexpr std::size_t kMostClosePairs = 120000;
-
-/// A touch as it would be measured in a pose, and how well it is known beforehand.
-struct Forecast {
-  ExpectedTouch touch;
-  double variance = 0;   // of the part's side across itself, from the pose's
-  double incidence = 1;  // cosine of the way's angle with the normal
-  double turn_variance = 0;
-};
-
-class Advisor {
- public:
-  Advisor(const TouchAnswer& answer, std::vector<LikelyPose> poses)
-      : answer_(answer), poses_(std::move(poses)), part_(answer.part) {
-    has_normals_ = std::any_of(answer.touches.begin(), answer.touches.end(),
-                               [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
-    const double share = answer.noise ? kTouchSigmas : 1;
-    for (const TouchTolerance& tolerance : answer.tolerance) {
-      place_sd_ = std::max(place_sd_, tolerance.length / share);
-      turn_sd_ = std::max(turn_sd_, tolerance.angle / share);
-    }
-    bound();
-    share_out();
-  }
-
-  /// From outside, in all directions; of a hole from within.
-  std::vector<Approach> all_around() {
-    std::vector<Approach> approaches;
-    if (part_.is_hole()) {
-      for (const Vec2& from : places_within()) {
-        for (int k = 0; k < kDirections; ++k) approaches.push_back({from, kFullTurn * k / kDirections});
-      }
-      return approaches;
-    }
-    for (int k = 0; k < kDirections; ++k) {
-      const double direction = kFullTurn * k / kDirections;
-      const Vec2 along(std::cos(direction), std::sin(direction));
-      const Vec2 across(-along.y(), along.x());
-      for (std::size_t i = 0; i < kParallel; ++i) {
-        const double off = ((2.0 * static_cast<double>(i) + 1) / kParallel - 1) * reach_;
-        approaches.push_back({middle_ + off * across - (reach_ + answer_.radius) * along, direction});
-      }
-    }
-    return approaches;
-  }
-
-  std::vector<Forecast> forecasts(const Approach& approach) {
-    std::vector<Forecast> result;
-    for (const LikelyPose& one : poses_) result.push_back(forecast(approach, one));
-    return result;
-  }
-
-  /// By how far the finger goes in each pose: quick, and right where no other side of the part is near.
-  TouchProspect rough_prospect(const Approach& approach) {
-    return prospect(approach,
-                    [&](const Forecast& one, const Forecast& other, std::size_t) { return square_apart(one, other); });
-  }
-
-  /// By how well the touch that one pose leads to fits the other one, on whatever side of it.
-  TouchProspect prospect(const Approach& approach) {
-    return prospect(approach, [&](const Forecast& one, const Forecast& other, std::size_t j) {
-      const double square = square_apart(one, other);
-      return one.touch.hits && square > 0 ? std::min(square, square_off(one, poses_[j])) : square;
-    });
-  }
-
-  const std::vector<LikelyPose>& poses() const { return poses_; }
-  PartDistance& part() { return part_; }
-  std::size_t pose_count() const { return poses_.size(); }
-  double bits_wanted() const {
-    double bits = 0;
-    for (const LikelyPose& one : poses_) bits -= one.weight * std::log2(one.weight);
-    return bits;
-  }
-
- private:
-  /// A circle around the part in all poses.
-  void bound() {
-    const std::vector<Vec2> outline = answer_.part.polyline(0, answer_.part.perimeter(), 200);
-    Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity()), most = -least;
-    for (const LikelyPose& one : poses_) {
-      for (const Vec2& point : outline) {
-        const Vec2 world = one.pose.world({side() * point.x(), point.y()});
-        least = least.cwiseMin(world);
-        most = most.cwiseMax(world);
-      }
-    }
-    for (const Vec2& point : outline) farthest_ = std::max(farthest_, point.norm());
-    middle_ = 0.5 * (least + most);
-    reach_ = 0.5 * (most - least).norm();
-  }
-
-  /// Where the hole's middle is in the likeliest poses, if it is free in all of them; else where it is in most.
-  std::vector<Vec2> places_within() {
-    const Vec2 middle = part_.middle_of_hole();
-    std::vector<std::pair<double, Vec2>> places;
-    for (const LikelyPose& one : poses_) {
-      const Vec2 place = one.pose.world({side() * middle.x(), middle.y()});
-      const bool is_known = std::any_of(places.begin(), places.end(), [&](const auto& known) {
-        return (known.second - place).norm() < kApart * part_.diagonal();
-      });
-      if (!is_known && places.size() < kMostPlaces) places.emplace_back(share_free(place), place);
-    }
-    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<Vec2> result;
-    for (const auto& [share, place] : places) {
-      if (share >= places.front().first && result.size() < kParallel) result.push_back(place);
-    }
-    return result;
-  }
-
-  /// Probability of the poses in which the finger touches nothing there.
-  double share_free(const Vec2& at) {
-    double share = 0;
-    for (const LikelyPose& one : poses_) {
-      if (part_.nearest(in_part(one, at)).distance > answer_.radius) share += one.weight;
-    }
-    return share;
-  }
-
-  double side() const { return answer_.mirrored ? -1 : 1; }
-
-  void share_out() {
-    std::map<std::size_t, double> of_set;
-    for (const LikelyPose& one : poses_) of_set[one.placement] += one.weight;
-    for (const LikelyPose& one : poses_) share_of_set_.push_back(one.weight / of_set[one.placement]);
-  }
-
-  /// `apart(a, b, j)`: how far the touch in pose a is from what pose j would have, b.
-  template <class Apart>
-  TouchProspect prospect(const Approach& approach, const Apart& apart) {
-    const std::vector<Forecast> all = forecasts(approach);
-    TouchProspect result{approach};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      double weight = 0;  // that the poses have once the touch is made, if i is the true one
-      double remain = 0;
-      for (std::size_t j = 0; j < all.size(); ++j) {
-        const double share = i == j ? 1 : std::exp(-0.5 * apart(all[i], all[j], j));
-        weight += poses_[j].weight * share;
-        remain += share * share_of_set_[j];
-      }
-      result.bits -= poses_[i].weight * std::log2(std::max(weight, 1e-300));
-      result.poses += poses_[i].weight * std::max(1.0, remain);  // of a continuum a part of it
-      result.head_on += poses_[i].weight * (all[i].touch.hits ? all[i].incidence : 0);
-    }
-    result.bits = std::max(0.0, result.bits);  // weights add up to 1 but for rounding
-    return result;
-  }
-
-  Vec2 in_part(const LikelyPose& one, const Vec2& at) const {
-    const Vec2 point = Pose{0, 0, -one.pose.heading}.turned(at - Vec2(one.pose.x, one.pose.y));
-    return {side() * point.x(), point.y()};
-  }
-
-  /// What is nearest to a place of the world, in a pose; directions and places as the world sees them, about the part.
-  NearestOfPart nearest_in(const LikelyPose& one, const Vec2& at) {
-    NearestOfPart nearest = part_.nearest(in_part(one, at));
-    nearest.away = one.pose.turned({side() * nearest.away.x(), nearest.away.y()});
-    nearest.contact = one.pose.turned({side() * nearest.contact.x(), nearest.contact.y()});
-    return nearest;
-  }
-
-  /// Of the part's side across itself, from the pose's.
-  static double variance_of(const LikelyPose& one, const NearestOfPart& nearest) {
-    const Vec2& away = nearest.away;
-    const Vec2& arm = nearest.contact;
-    const Eigen::Vector3d by_pose(away.x(), away.y(), away.y() * arm.x() - away.x() * arm.y());
-    return by_pose.dot(one.covariance * by_pose);
-  }
-
-  /// No side's is larger.
-  double most_variance_of(const LikelyPose& one) const {
-    const double by_place = std::sqrt(one.covariance.topLeftCorner<2, 2>().trace());
-    const double by_turn = std::sqrt(one.covariance(2, 2)) * farthest_;
-    return (by_place + by_turn) * (by_place + by_turn);
-  }
-
-  /// Of the normal, from the pose's heading, and as a touch may as well have been a little further along the side: by
-  /// how much its normal turns there.
-  double turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const {
-    const bool is_corner = std::isinf(nearest.curvature);
-    const double radius = answer_.radius;
-    const double bend = is_corner ? 1 / radius : std::abs(nearest.curvature / (1 + nearest.curvature * radius));
-    return one.covariance(2, 2) + std::pow(std::min(bend * place_sd_, kAnyTurn), 2);
-  }
-
-  /// The squares of a touch's residuals in another pose.
-  double square_off(const Forecast& made, const LikelyPose& one) {
-    const Interval distance = part_.between(in_part(one, made.touch.at));
-    const double least = std::max({distance.lo - answer_.radius, answer_.radius - distance.hi, 0.0});
-    const double quick = least * least / (place_sd_ * place_sd_ + made.variance + most_variance_of(one));
-    if (quick > kFarOff) return quick;
-    const NearestOfPart nearest = nearest_in(one, made.touch.at);
-    const double gap = nearest.distance - answer_.radius;
-    const double turn = nearest_angle(made.touch.normal - std::atan2(nearest.away.y(), nearest.away.x()));
-    return square_of(gap, made.variance + variance_of(one, nearest), turn,
-                     made.turn_variance + turn_variance_of(one, nearest));
-  }
-
-  double square_of(double place, double variance, double turn, double turn_variance) const {
-    double square = place * place / (place_sd_ * place_sd_ + variance);
-    if (has_normals_ && turn_sd_ > 0) square += turn * turn / (turn_sd_ * turn_sd_ + turn_variance);
-    return square;
-  }
-
-  /// Goes by how far the part is, until it touches or is past.
-  Forecast forecast(const Approach& approach, const LikelyPose& one) {
-    Forecast result;
-    result.touch = {one.placement, one.weight, one.pose};
-    const Vec2 along(std::cos(approach.direction), std::sin(approach.direction));
-    const double farthest = (approach.from - middle_).norm() + reach_ + answer_.radius;
-    double travel = 0;
-    for (int look = 0; look < kMostTraceSteps && travel <= farthest; ++look) {
-      const Vec2 at = approach.from + travel * along;
-      const double most_near = part_.at_least(in_part(one, at)) - answer_.radius;
-      if (most_near > kTouches * part_.diagonal()) {
-        travel += most_near;
-        continue;
-      }
-      NearestOfPart nearest = nearest_in(one, at);
-      const double gap = nearest.distance - answer_.radius;
-      double step = gap > 0 ? gap : 0;
-      bool is_there = gap <= kTouches * part_.diagonal();
-      const double incidence = -along.dot(nearest.away);
-      if (!is_there && gap <= kNear * part_.diagonal() && incidence > kLeastIncidence) {
-        const NearestOfPart ahead = nearest_in(one, at + gap / incidence * along);
-        is_there = std::abs(ahead.distance - answer_.radius) <= kTouches * part_.diagonal();
-        if (is_there) nearest = ahead;
-        if (is_there) step = gap / incidence;
-      }
-      travel += step;
-      if (!is_there) continue;
-      touches(one, along, nearest, result);
-      result.touch.at = approach.from + travel * along;
-      result.touch.travel = travel;
-      break;
-    }
-    return result;
-  }
-
-  void touches(const LikelyPose& one, const Vec2& along, const NearestOfPart& nearest, Forecast& result) const {
-    result.touch.hits = true;
-    result.touch.normal = std::atan2(nearest.away.y(), nearest.away.x());
-    result.incidence = std::max(kLeastIncidence, -along.dot(nearest.away));
-    result.variance = variance_of(one, nearest);
-    result.turn_variance = turn_variance_of(one, nearest);
-  }
-
-  double square_apart(const Forecast& a, const Forecast& b) const {
-    if (a.touch.hits != b.touch.hits) return std::numeric_limits<double>::infinity();
-    if (!a.touch.hits) return 0;
-    const double place = (a.touch.travel - b.touch.travel) * std::min(a.incidence, b.incidence);
-    return square_of(place, a.variance + b.variance, nearest_angle(a.touch.normal - b.touch.normal),
-                     a.turn_variance + b.turn_variance);
-  }
-
-  const TouchAnswer& answer_;
-  std::vector<LikelyPose> poses_;
-  std::vector<double> share_of_set_;  // of each pose, in the set that it stands for
-  PartDistance part_;
-  bool has_normals_ = false;
-  double place_sd_ = 0;
-  double turn_sd_ = 0;
-  Vec2 middle_ = Vec2::Zero();
-  double reach_ = 0;
-  double farthest_ = 0;  // of the part from its frame's origin
-};
 
 /// Whether one gains more, or about as much and goes at the part head on: along a side a little may make it miss.
 bool is_better(const TouchProspect& one, const TouchProspect& other) {
@@ -332,18 +32,17 @@ bool is_better(const TouchProspect& one, const TouchProspect& other) {
 
 /// Looks closely at the most promising prospects, and says which of them is best. Bits are no more than roughly: if
 /// only the best is asked for, what is roughly no better than it needs no closer look.
-std::size_t best_of(Advisor& advisor, std::vector<TouchProspect>& prospects, bool only_best) {
+std::size_t best_of(TouchProspects& touches, std::size_t poses, std::vector<TouchProspect>& prospects, bool only_best) {
   std::vector<std::size_t> order(prospects.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
-  const std::size_t pairs = advisor.pose_count() * advisor.pose_count();
-  order.resize(std::min(order.size(), std::max<std::size_t>(1, kMostClosePairs / pairs)));
+  order.resize(std::min(order.size(), std::max<std::size_t>(1, kMostClosePairs / (poses * poses))));
   std::size_t best = prospects.size();
   for (const std::size_t k : order) {
     const bool is_first = best == prospects.size();
     if (!is_first && only_best && !is_better(prospects[k], prospects[best])) break;
-    prospects[k] = advisor.prospect(prospects[k].approach);
+    prospects[k] = touches.close(prospects[k].approach);
     if (is_first || is_better(prospects[k], prospects[best])) best = k;
   }
   return best;
@@ -394,16 +93,17 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
   next.why = touch::nothing_to_tell(answer);
   if (!next.why.empty()) return next;
   const Doing doing("looking for the touch that tells most");
-  touch::Advisor advisor(answer, touch::likely_poses(answer));
-  for (const Approach& approach : approaches.empty() ? advisor.all_around() : approaches) {
-    next.prospects.push_back(advisor.rough_prospect(approach));
+  touch::PartInPoses lying(answer, touch::likely_poses(answer));
+  touch::TouchProspects touches(lying);
+  for (const Approach& approach : approaches.empty() ? touch::approaches_around(lying) : approaches) {
+    next.prospects.push_back(touches.rough(approach));
   }
-  next.best = touch::best_of(advisor, next.prospects, approaches.empty());
+  next.best = touch::best_of(touches, lying.poses().size(), next.prospects, approaches.empty());
   if (!answer.poses.empty()) {
-    for (touch::Forecast& one : advisor.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
+    for (touch::Forecast& one : touches.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
   }
-  next.bits_wanted = advisor.bits_wanted();
-  next.roll = touch::roll_instead(answer, advisor.poses(), advisor.part());
+  next.bits_wanted = touches.bits_wanted();
+  next.roll = touch::roll_instead(answer, lying.poses(), lying.part());
   next.helps = next.advised().bits >= touch::kLeastBits;
   if (next.helps) return next;
   next.why = approaches.empty() ? "no touch tells these poses apart: the part looks the same in each, within the noise"

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "column_cure.hpp"
+#include "length_scales.hpp"
 #include "mirror.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
@@ -18,29 +17,6 @@
 namespace rollfix {
 namespace {
 
-// Scales of lengths are tried as far apart as this, each with an open scale about it of this standard deviation.
-constexpr double kScaleStep = 1.08;
-constexpr double kOpenScale = 0.04;
-// From a thousandth of what was measured, a unit that is taken for another, to where the turn forbids it.
-constexpr double kLeastScale = 0.9e-3;
-constexpr double kMostScale = 1.1e3;
-constexpr std::size_t kRadiiOfTwo = 9;  // the first of these
-constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0,   1.08,  1.16, 1.26, 2.0,
-                                                 1 / 25.4, 0.1,  10.0, 25.4, 0.001, 1000., 0.01, 100.0};
-// ... with which the longest roll is between these, in perimeters: shorter ones say nothing, longer ones nobody rolls.
-constexpr double kLeastRollOfTwo = 0.01;
-constexpr double kMostRollOfTwo = 8;
-// Beyond what Theta's own range allows, radians: noise.
-constexpr double kTurnBeyond = 0.5;
-constexpr double kTurnSigmas = 6;
-// Rows that scales are compared by, and scales that are looked at with all rows.
-constexpr std::size_t kRowsToCompare = 48;
-constexpr std::size_t kScalesToCompare = 5;
-// Those only that fit so many times as badly as the best one, give or take as much as there are rows.
-constexpr double kCloseCost = 3;
-constexpr int kMostSteps = 6;
-// A step of the scale that is this much of its standard deviation is the last one.
-constexpr double kSmallStep = 0.2;
 // A scale that differs from 1 by less, in standard deviations, explains nothing, and two that differ by less than this
 // are the same.
 constexpr double kOtherScale = 1;
@@ -86,38 +62,10 @@ struct Trial {
   double log_evidence = 0;
 };
 
-/// The fingers whose lengths are scaled: all, or one of two.
-using Whose = std::optional<std::size_t>;
-
-bool is_of(const Whose& whose, std::size_t finger) { return !whose || *whose == finger; }
-
-/// Lengths this many times as long: of a disk with a radius that is.
-Problem with_lengths(const Problem& problem, const Whose& whose, double scale) {
-  Problem scaled = problem;
-  if (whose && scaled.fingers.size() == 1) scaled.fingers.push_back(scaled.fingers.front());
-  for (std::size_t k = 0; k < scaled.fingers.size(); ++k) {
-    Finger& finger = scaled.fingers[k];
-    if (is_of(whose, k) && finger.is_disk()) finger = disk(scale * finger.disk()->radius);
-  }
-  return scaled;
-}
-
-Observation with_lengths(const Observation& observed, const Whose& whose, double scale) {
-  Observation scaled = observed;
-  for (std::vector<Reading>* readings : {&scaled.readings, &scaled.rolls}) {
-    for (Reading& reading : *readings) {
-      for (std::size_t k = 0; k < reading.length.size(); ++k) {
-        if (is_of(whose, k)) reading.length[k] *= scale;
-      }
-    }
-  }
-  return scaled;
-}
-
 class Diagnostician {
  public:
   Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
-      : problem_(problem), observed_(observed), verdict_(belief.verdict()) {
+      : problem_(problem), observed_(observed), scales_(problem, observed), verdict_(belief.verdict()) {
     // Two fingers' rows are always joined for their number alone.
     std::optional<Belief> joined;
     if (!is_of_two()) joined = by_rows(problem, observed);
@@ -223,103 +171,22 @@ class Diagnostician {
 
   /// Lengths by one factor, of any size; or of one of two fingers.
   void try_scale(const Whose& whose = std::nullopt) {
-    std::vector<std::pair<double, double>> by_cost;
-    for (const double scale : scales(whose)) {
-      const std::optional<Fit> fit = fit_with(whose, scale, kRowsToCompare);
-      if (fit && std::isfinite(fit->chi_square)) by_cost.emplace_back(fit->chi_square, scale);
-    }
-    std::sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    std::vector<std::pair<double, double>> valleys;
-    for (std::size_t k = 0; k < by_cost.size(); ++k) {
-      const bool is_valley = (k == 0 || by_cost[k - 1].first >= by_cost[k].first) &&
-                             (k + 1 == by_cost.size() || by_cost[k + 1].first >= by_cost[k].first);
-      if (is_valley) valleys.push_back(by_cost[k]);
-    }
-    std::sort(valleys.begin(), valleys.end());
-    if (valleys.size() > kScalesToCompare) valleys.resize(kScalesToCompare);
-    for (const auto& [cost, scale] : valleys) {
-      if (cost <= kCloseCost * (valleys.front().first + kRowsToCompare)) settle_scale(whose, scale);
+    for (const double scale : scales_.worth_a_look(whose)) {
+      std::optional<SettledScale> settled = scales_.settled(whose, scale);
+      if (!settled || std::abs(settled->scale - 1) < kOtherScale * settled->sd || is_tried(whose, *settled)) continue;
+      Diagnosis diagnosis = of(Cause::radius, settled->belief.fit());
+      diagnosis.length_scale = settled->scale;
+      diagnosis.length_scale_sd = settled->sd;
+      diagnosis.finger = whose;
+      add(std::move(diagnosis), settled->belief, (whose ? 0.5 : 1) * std::log(settled->scale));
     }
   }
-
-  /// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
-  std::vector<double> scales(const Whose& whose) const {
-    std::vector<double> scales;
-    if (is_of_two()) {
-      // One finger's unit is the other's as well.
-      const auto end = whose ? kScalesOfTwo.begin() + kRadiiOfTwo : kScalesOfTwo.end();
-      std::copy_if(kScalesOfTwo.begin(), end, std::back_inserter(scales),
-                   [&](double scale) { return may_be_of_two(scale); });
-      return scales;
-    }
-    for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {
-      if (may_be(scale)) scales.push_back(scale);
-    }
-    return scales;
-  }
-
-  bool may_be_of_two(double scale) const {
-    double longest = 0;
-    for (const Reading& row : observed_rows()) {
-      for (const double length : row.length) longest = std::max(longest, std::abs(length));
-    }
-    const double laps = scale * longest / problem_.part.perimeter();
-    return laps >= kLeastRollOfTwo && laps <= kMostRollOfTwo;
-  }
-
-  /// Theta's own range and the turn that was felt confine what a length can be.
-  bool may_be(double scale) const {
-    const TurningFunction& turning = problem_.part.turning();
-    const double P = problem_.part.perimeter();
-    if (turn_beyond_ < 0) {
-      double lo = 0;
-      double hi = 0;
-      const double per_length = turning.period_turn() / P;
-      for (const Spiral& spiral : turning.spirals()) {
-        for (const double off :
-             {spiral.start.angle - per_length * spiral.lo, spiral.end.angle - per_length * spiral.hi}) {
-          lo = std::min(lo, off);
-          hi = std::max(hi, off);
-        }
-      }
-      turn_beyond_ = 2 * (hi - lo) + kTurnBeyond + kTurnSigmas * problem_.noise->angle;
-    }
-    if (!problem_.part.closed()) {
-      return std::all_of(observed_rows().begin(), observed_rows().end(),
-                         [&](const Reading& row) { return std::abs(row.length[0]) * scale <= 1.1 * P; });
-    }
-    return std::all_of(observed_rows().begin(), observed_rows().end(), [&](const Reading& row) {
-      return std::abs(row.turn - turning.period_turn() * row.length[0] * scale / P) <= turn_beyond_;
-    });
-  }
-
-  void settle_scale(const Whose& whose, double scale) {
-    std::optional<Belief> belief;
-    Fit fit;
-    for (int step = 0; step < kMostSteps; ++step) {
-      belief = belief_with(whose, scale, observed_rows().size());
-      if (!belief) return;
-      fit = belief->fit();
-      const double by = whose ? fit.length_scale[*whose] : common_scale(fit.length_scale);
-      const double sd = std::max(fit.length_scale_sd[whose.value_or(0)], 1e-12);
-      scale *= by;
-      // What is far off everywhere asks for any scale.
-      if (!(scale >= kLeastScale / kScaleStep && scale <= kMostScale * kScaleStep)) return;
-      if (std::abs(by - 1) < kSmallStep * sd) break;
-    }
-    const double sd = scale * fit.length_scale_sd[whose.value_or(0)];
-    if (std::abs(scale - 1) < kOtherScale * sd) return;
-    for (const Trial& trial : trials_) {
+  bool is_tried(const Whose& whose, const SettledScale& settled) const {
+    return std::any_of(trials_.begin(), trials_.end(), [&](const Trial& trial) {
       const Diagnosis& known = trial.diagnosis;
-      if (known.cause == Cause::radius && known.finger == whose &&
-          std::abs(known.length_scale - scale) < kSameScale * sd)
-        return;
-    }
-    Diagnosis diagnosis = of(Cause::radius, fit);
-    diagnosis.length_scale = scale;
-    diagnosis.length_scale_sd = sd;
-    diagnosis.finger = whose;
-    add(std::move(diagnosis), *belief, (whose ? 0.5 : 1) * std::log(scale));
+      return known.cause == Cause::radius && known.finger == whose &&
+             std::abs(known.length_scale - settled.scale) < kSameScale * settled.sd;
+    });
   }
 
   static Diagnosis of(Cause cause, const Fit& fit) {
@@ -327,11 +194,6 @@ class Diagnostician {
     diagnosis.cause = cause;
     diagnosis.excess = fit.excess;
     return diagnosis;
-  }
-
-  static double common_scale(const PerFinger<double>& scale) {
-    if (scale.size() == 1) return scale[0];
-    return std::sqrt(scale[0] * scale[1]);
   }
 
   void try_robust() {
@@ -426,32 +288,16 @@ class Diagnostician {
     return is_right;
   }
 
-  bool is_of_two() const { return observed_rows().front().fingers() == 2; }
-  const std::vector<Reading>& observed_rows() const {
-    return problem_.felt.is_log() ? observed_.rolls : observed_.readings;
-  }
-
-  std::optional<Belief> belief_with(const Whose& whose, double scale, std::size_t rows) const {
-    try {
-      return believe(with_lengths(problem_, whose, scale), with_lengths(observed_, whose, scale),
-                     {kOpenScale, rows, true, {}, true, {}, whose});
-    } catch (const InputError&) {
-      return std::nullopt;
-    }
-  }
-  std::optional<Fit> fit_with(const Whose& whose, double scale, std::size_t rows) const {
-    std::optional<Belief> belief = belief_with(whose, scale, rows);
-    return belief ? std::optional<Fit>(belief->fit()) : std::nullopt;
-  }
+  bool is_of_two() const { return rows_felt(problem_, observed_).front().fingers() == 2; }
 
   const Problem& problem_;
   const Observation& observed_;
+  LengthScales scales_;
   Fit as_said_;
   double log_evidence_ = 0;  // with it, and with as much noise as the rows seem to have
   Verdict verdict_;          // with it
   std::vector<Trial> trials_;
   double glance_excess_ = 0;
-  mutable double turn_beyond_ = -1;
 };
 
 }  // namespace

@@ -24,6 +24,11 @@ struct Observation {
   double length_error() const;
 };
 
+/// All that was felt: a log's rows, or the readings.
+inline const std::vector<Reading>& rows_felt(const Problem& problem, const Observation& observed) {
+  return problem.felt.is_log() ? observed.rolls : observed.readings;
+}
+
 /// Throws InputError: facing, instants and logs that don't go together, and what `readings` of a log throws.
 Observation observe(const Problem& problem);
 

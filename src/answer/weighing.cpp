@@ -161,7 +161,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   Belief belief(problem.part, kind_of(problem), options, contacts);
   const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
   require_times(*problem.noise, has_times, problem.felt.is_log() ? problem.felt.log->name : "`readings`");
-  const std::vector<Reading>& readings = problem.felt.is_log() ? observed.rolls : observed.readings;
+  const std::vector<Reading>& readings = rows_felt(problem, observed);
   const std::size_t stride = std::max<std::size_t>(1, readings.size() / std::max<std::size_t>(1, supposed.rows));
   for (std::size_t k = 0; k < readings.size(); k += stride) {
     // On a corner of a finger a row leaves open how its normal is turned.

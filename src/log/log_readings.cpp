@@ -11,6 +11,7 @@
 
 #include "log/log_rows.hpp"
 #include "log/roll_check.hpp"
+#include "log/wrapping.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"

@@ -44,33 +44,6 @@ std::vector<Columns> columns_of(const std::optional<double>& time, const PerFing
   return result;
 }
 
-// A wrapped column can seem this much wider than its period: the rounding of its own 2 pi, in periods.
-constexpr double kWrapSlack = 2e-10;
-
-/// `range`: of all angles, of which there are so many.
-bool may_be_wrapped(const Interval& range, std::size_t count, double rounding, double period) {
-  if (count < 2 || !std::isfinite(period)) return false;
-  const double slack = 2 * rounding + kWrapSlack * period;
-  if (!(range.width() <= period + slack)) return false;
-  if (count > 2) return true;
-  const bool is_symmetric = range.lo >= -period / 2 - slack && range.hi <= period / 2 + slack;
-  const bool is_positive = range.lo >= -slack && range.hi <= period + slack;
-  return is_symmetric || is_positive;
-}
-
-// Rows this near together, as a share of a turn, show by their steps where a column is wrapped ...
-constexpr double kNearRows = 1.0 / 6;
-// ... and these show it where it is wrapped twice, which no angle within a turn would look like.
-constexpr double kFarRows = 0.4;
-// A step that is shorter than this share of the longest of the others belongs to them: one that only seems to be taken
-// back, on the way through less than a turn, is longer than all of them.
-constexpr double kShortStep = 0.8;
-// One no longer than this many times as long belongs to them where it goes on as its neighbours do.
-constexpr double kLikeStep = 2;
-
-/// The whole turns that such a step takes back.
-double turns_in(double step, double period) { return std::abs(step) > period / 2 ? std::round(step / period) : 0; }
-
 }  // namespace
 
 void ColumnRounding::add(const WrittenValue& written) {
@@ -276,130 +249,6 @@ void RowReader::require_width() const {
   }
 }
 
-double Odometer::ExactSum::add(double term) {
-  const double next = sum_ + term;
-  rest_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
-  sum_ = next;
-  return sum_ + rest_;
-}
-
-Reading Odometer::add(const FingerCells& row) {
-  const bool is_first_contact = starts_here_;
-  starts_here_ = false;
-  if (kind_ == LogKind::increments) {
-    return is_first_contact ? Reading{} : Reading{length_.add(row.place.value), turn_.add(row.angle.value)};
-  }
-  if (is_first_contact) start_ = row;
-  return {row.place.value - start_.place.value, row.angle.value - start_.angle.value};
-}
-
-namespace {
-
-/// Whether a reader of these increments would add them up to the rows' length and turn, to the bit.
-bool add_up(const std::vector<double>& distance, const std::vector<double>& dturn, const FingerRows& rows) {
-  if (distance.size() != rows.length.size() || dturn.size() != rows.turn.size()) return false;
-  Odometer odometer(LogKind::increments, false);
-  for (std::size_t row = 0; row < distance.size(); ++row) {
-    const Reading sum = odometer.add({{distance[row], 0}, {dturn[row], 0}});
-    if (sum.length[0] != rows.length[row] || sum.turn != rows.turn[row]) return false;
-  }
-  return true;
-}
-
-/// Steps that a reader adds up to these sums, to the rounding of a step.
-std::vector<double> steps_to(const std::vector<double>& sums) {
-  std::vector<double> steps;
-  Odometer odometer(LogKind::increments, false);
-  double before = 0;
-  for (const double sum : sums) {
-    steps.push_back(sum - before);
-    before = odometer.add({{steps.back(), 0}, {}}).length[0];  // what rounding took comes back with the next step
-  }
-  return steps;
-}
-
-}  // namespace
-
-Increments increments_of(const FingerRows& rows) {
-  if (add_up(rows.distance, rows.dturn, rows)) return {rows.distance, rows.dturn};
-  return {steps_to(rows.length), steps_to(rows.turn)};  // rows made or changed without them
-}
-
-std::vector<double> unwrapped(const std::vector<double>& angles, double rounding, double period) {
-  std::vector<double> result = angles;
-  if (angles.empty()) return result;
-  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-  if (!may_be_wrapped({*least, *most}, angles.size(), rounding, period)) return result;
-  double turns = 0;
-  for (std::size_t k = 1; k < angles.size(); ++k) {
-    turns -= turns_in(angles[k] - angles[k - 1], period);
-    if (turns != 0) result[k] = angles[k] + turns * period;
-  }
-  return result;
-}
-
-std::vector<double> unwrapped_as_said(const std::vector<double>& angles, double rounding, double period,
-                                      const std::optional<bool>& is_wrapped) {
-  if (!is_wrapped) return unwrapped(angles, rounding, period);
-  std::vector<double> result = angles;
-  if (!*is_wrapped || !std::isfinite(period)) return result;
-  double turns = 0;
-  for (std::size_t k = 1; k < angles.size(); ++k) {
-    turns -= turns_in(angles[k] - angles[k - 1], period);
-    result[k] = angles[k] + turns * period;
-  }
-  return result;
-}
-
-std::optional<std::size_t> unclear_step(const std::vector<double>& angles, double rounding, double period,
-                                        const std::optional<bool>& is_wrapped) {
-  if (is_wrapped || angles.empty()) return std::nullopt;
-  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-  if (!may_be_wrapped({*least, *most}, angles.size(), rounding, period)) return std::nullopt;
-  std::vector<double> steps;                            // as they are if the column is wrapped
-  std::vector<std::size_t> far;                         // of those that are others if it is not
-  double longest = 2 * rounding + kWrapSlack * period;  // of those that are the same
-  double turns = 0;
-  for (std::size_t k = 1; k < angles.size(); ++k) {
-    const double step = angles[k] - angles[k - 1];
-    const double whole = turns_in(step, period);
-    steps.push_back(step - whole * period);
-    turns += whole;
-    if (whole != 0) far.push_back(k - 1);
-    if (whole == 0) longest = std::max(longest, std::abs(step));
-  }
-  const bool is_wrapped_often = far.size() > 2 || std::abs(turns) > 1;
-  if (far.empty() || (is_wrapped_often && longest <= kFarRows * period)) return std::nullopt;
-  for (const std::size_t k : far) {
-    const double size = std::abs(steps[k]);
-    const bool goes_on =
-        (k > 0 && steps[k - 1] * steps[k] > 0) || (k + 1 < steps.size() && steps[k + 1] * steps[k] > 0);
-    const bool belongs = size <= kShortStep * longest || (goes_on && size <= kLikeStep * longest);
-    if (!belongs || longest > kNearRows * period) return k + 1;
-  }
-  return std::nullopt;
-}
-
-bool GrowingAngle::is_wrapped(double rounding) const {
-  return said_ ? *said_ && std::isfinite(period_) : may_be_wrapped(range_, count_, rounding, period_);
-}
-
-double GrowingAngle::add(double angle, double rounding) {
-  const double last = last_;
-  const double turns = turns_;
-  range_ = count_ == 0 ? Interval{angle, angle} : Interval{std::min(range_.lo, angle), std::max(range_.hi, angle)};
-  if (count_ > 0) {
-    const double whole = turns_in(angle - last, period_);
-    turns_ -= whole;
-    was_far_ = was_far_ || (whole != 0 && std::abs(angle - last - whole * period_) > kNearRows * period_);
-  }
-  last_ = angle;
-  ++count_;
-  const bool wraps = (turns != 0 || turns_ != 0) && is_wrapped(rounding);
-  before_ = wraps ? last + turns * period_ : last;
-  return wraps && turns_ != 0 ? angle + turns_ * period_ : angle;
-}
-
 void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* finger, const std::string& log) {
   if (!dimension || finger == nullptr || finger->is_disk() == (*dimension == Dimension::angle)) return;
   if (finger->is_disk()) {
@@ -410,31 +259,6 @@ void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* 
   }
   throw InputError(fmt::format(
       "{}: u is in a unit of an angle, and of a jaw or an outline it is the place along it: expected a length", log));
-}
-
-namespace {
-
-/// The first row in which two columns differ; if none does, how many rows there are.
-std::size_t first_change(const std::vector<double>& one, const std::vector<double>& other) {
-  return static_cast<std::size_t>(std::mismatch(one.begin(), one.end(), other.begin()).first - one.begin());
-}
-
-}  // namespace
-
-void require_readable(const FingerRows& rows, const std::string& log) {
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(rows.u.begin(), rows.u.end(), is_finite) ||
-      !std::all_of(rows.psi.begin(), rows.psi.end(), is_finite)) {
-    throw InputError(
-        fmt::format("{}: its rows would hold numbers beyond any double: check the units, and the noise", log));
-  }
-  const std::size_t row = std::min(first_change(rows.u, unwrapped(rows.u, rows.place_rounding, rows.u_period)),
-                                   first_change(rows.psi, unwrapped(rows.psi, rows.angle_rounding)));
-  if (row == rows.u.size()) return;
-  throw InputError(fmt::format(
-      "{}: its {} rows are more than half a turn apart, rows {} and {}, so that a reader would take the angles as "
-      "wrapped: take more rows, unless they are many and the motion jumps there",
-      log, rows.u.size(), row, row + 1));
 }
 
 }  // namespace rollfix

@@ -64,14 +64,14 @@ struct LogRow {
   PerFinger<FingerCells> fingers;  // of a row that touches
 };
 
-/// Reads the rows of a log of one finger or of two, from its lines or as numbers: the one place in which headers, cells
-/// and times are judged, of a file as of a stream.
 /// A row's time is not after that of the row before.
 class NotLater : public InputError {
  public:
   using InputError::InputError;
 };
 
+/// Reads the rows of a log of one finger or of two, from its lines or as numbers: the one place in which headers, cells
+/// and times are judged, of a file as of a stream.
 class RowReader {
  public:
   /// `name`: of the log, for messages.
@@ -137,92 +137,14 @@ LogOptions options_for_finger(const LogOptions& options, std::size_t finger);
 // Two clocks' readings of one instant may differ by this share of the roll's duration: rounding, not a delay.
 inline constexpr double kSameInstant = 1e-9;
 
-/// How the rows of a log without u and psi are measured from the first contact of their roll. That lies before the
-/// log's first row. A later roll's first row is its own first contact: what was counted while the finger was off the
-/// part does not count.
-class Odometer {
- public:
-  Odometer(LogKind kind, bool is_later_roll) : kind_(kind), starts_here_(is_later_roll) {}
-
-  /// Length and turn up to this row, lengths along the outline as the user gave it.
-  Reading add(const FingerCells& row);
-
- private:
-  /// A sum that keeps what rounding drops (Neumaier 1974): a million increments add up to one rounding.
-  class ExactSum {
-   public:
-    double add(double term);
-
-   private:
-    double sum_ = 0;
-    double rest_ = 0;
-  };
-
-  LogKind kind_;
-  bool starts_here_;
-  FingerCells start_;
-  ExactSum length_;
-  ExactSum turn_;
-};
-
-/// What a log of increments says from row to row.
-struct Increments {
-  std::vector<double> distance;
-  std::vector<double> dturn;
-};
-
-/// Those that were written, where `length` and `turn` are still their sums; else what leads from sum to sum.
-Increments increments_of(const FingerRows& rows);
-
 /// Throws InputError where a log says that u is an angle, or a length, and of this finger it is the other.
 void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* finger, const std::string& log);
-
-/// The column without jumps, as `unwrapped`, or as it was said to be.
-std::vector<double> unwrapped_as_said(const std::vector<double>& angles, double rounding, double period,
-                                      const std::optional<bool>& is_wrapped);
-
-/// How near to a corner of its finger the contact of such a row may be on it, length: by its digits, or by the noise.
-double reach_of_corners(double place_rounding, const Noise& noise);
-
-/// The first row that is so far from the one before that the column may be wrapped there or may not; nothing where the
-/// rows around show which it is, or where it was said.
-std::optional<std::size_t> unclear_step(const std::vector<double>& angles, double rounding, double period,
-                                        const std::optional<bool>& is_wrapped);
 
 /// Throws InputError where rows of a log of u and psi are so far apart that a column may be wrapped or not, and nobody
 /// said which.
 void require_clear(const Log& log, std::size_t which, const Finger& finger);
 
-/// Throws InputError when a reader of these rows of a log would take angles as wrapped that are not.
-void require_readable(const FingerRows& rows, const std::string& log);
-
-/// Unwraps a column as it grows: what `unwrapped` would make of the last of all angles so far, bit by bit.
-class GrowingAngle {
- public:
-  /// `is_wrapped`: as it was said to be.
-  explicit GrowingAngle(double period, const std::optional<bool>& is_wrapped = {})
-      : period_(period), said_(is_wrapped) {}
-
-  /// `rounding`: of each angle so far.
-  double add(double angle, double rounding);
-
-  /// The angle before that one, as it is understood now: a column that leaves a full turn was never wrapped.
-  double before() const { return before_; }
-
-  /// Whether rows were so far apart that the column may be wrapped there or may not, and nobody said which.
-  bool is_unclear(double rounding) const { return !said_ && was_far_ && is_wrapped(rounding); }
-
- private:
-  bool is_wrapped(double rounding) const;
-
-  double period_;
-  std::optional<bool> said_;
-  Interval range_;
-  std::size_t count_ = 0;
-  double last_ = 0;       // as written
-  bool was_far_ = false;  // a step over more than half a turn that is no short one either if it was wrapped
-  double turns_ = 0;      // whole ones that were wrapped away, if the column is wrapped
-  double before_ = 0;     // the last but one
-};
+/// How near to a corner of its finger the contact of such a row may be on it, length: by its digits, or by the noise.
+double reach_of_corners(double place_rounding, const Noise& noise);
 
 }  // namespace rollfix

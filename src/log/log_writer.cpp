@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "log/log_rows.hpp"
 #include "log/log_table.hpp"
+#include "log/odometer.hpp"
+#include "log/wrapping.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
 

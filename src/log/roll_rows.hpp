@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "log/log_rows.hpp"
+#include "log/odometer.hpp"
 #include "log/roll_check.hpp"
+#include "log/wrapping.hpp"
 #include "rollfix/log.hpp"
 
 namespace rollfix {

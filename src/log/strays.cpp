@@ -6,6 +6,7 @@
 
 #include "log/log_rows.hpp"
 #include "log/roll_check.hpp"
+#include "log/wrapping.hpp"
 #include "rollfix/finger.hpp"
 #include "rollfix/log.hpp"
 

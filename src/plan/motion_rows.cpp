@@ -1,4 +1,5 @@
 #include "plan/motion_rows.hpp"
+#include "log/wrapping.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
-
-#include "log/log_rows.hpp"
 
 // Notation:
 //   x, y               turns of the fingers against the part, with rates x', y'; c, p as in contact_way.hpp

@@ -4,7 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "log/log_rows.hpp"
+#include "log/odometer.hpp"
+#include "log/wrapping.hpp"
 #include "part/not_lost.hpp"
 #include "roll/normal_numbers.hpp"
 #include "rollfix/error.hpp"

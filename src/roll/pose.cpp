@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "log/log_rows.hpp"
+#include "log/wrapping.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/turning_function.hpp"

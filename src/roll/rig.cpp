@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "log/log_rows.hpp"
+#include "log/wrapping.hpp"
 #include "roll/rig_closure.hpp"
 #include "rollfix/error.hpp"
 

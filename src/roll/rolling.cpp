@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "log/log_rows.hpp"
+#include "log/wrapping.hpp"
 #include "roll/motion.hpp"
 #include "roll/naming.hpp"
 #include "rollfix/error.hpp"

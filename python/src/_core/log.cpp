@@ -7,7 +7,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "log/log_rows.hpp"
+#include "log/odometer.hpp"
 #include "rollfix/log.hpp"
 #include "signals.hpp"
 

@@ -37,11 +37,6 @@ Columns bare_columns(const TableRow& row, const std::string& log, const LogOptio
 /// taken; else empty.
 std::string other_finger_note(const std::vector<HeaderName>& header, const Columns& found);
 
-/// Whether the unit can be one of the column.
-bool takes(Column column, Dimension dimension);
-/// "an angle: rad, deg", "an angle or a length: ...".
-std::string what_it_takes(Column column);
-
 /// The unit that a name ends in, where it would change the column's numbers: "deg" of yaw_deg, "ms" of stamp_ms, "mm"
 /// of dist_mm. Empty where there is none.
 std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "log/header/column_names.hpp"
 #include "log/header/log_header.hpp"
 #include "text/text.hpp"
 

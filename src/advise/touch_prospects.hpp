@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "advise/part_in_poses.hpp"
+#include "rollfix/advise.hpp"
+
+namespace rollfix::touch {
+
+/// A touch as it would be measured in a pose, and how well it is known beforehand.
+struct Forecast {
+  ExpectedTouch touch;
+  double variance = 0;   // of the part's side across itself, from the pose's
+  double incidence = 1;  // cosine of the way's angle with the normal
+  double turn_variance = 0;
+};
+
+/// What a touch would be in each pose of a part, and what it would tell of them.
+class TouchProspects {
+ public:
+  explicit TouchProspects(PartInPoses& lying);
+
+  std::vector<Forecast> forecasts(const Approach& approach);
+
+  /// By how far the finger goes in each pose: quick, and right where no other side of the part is near.
+  TouchProspect rough(const Approach& approach);
+
+  /// By how well the touch that one pose leads to fits the other one, on whatever side of it.
+  TouchProspect close(const Approach& approach);
+
+  /// Until one pose is left.
+  double bits_wanted() const;
+
+ private:
+  template <class Apart>
+  TouchProspect prospect(const Approach& approach, const Apart& apart);
+  NearestOfPart nearest_in(const LikelyPose& one, const Vec2& at);
+  double most_variance_of(const LikelyPose& one) const;
+  double turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const;
+  double square_off(const Forecast& made, const LikelyPose& one);
+  double square_of(double place, double variance, double turn, double turn_variance) const;
+  double square_apart(const Forecast& a, const Forecast& b) const;
+  Forecast forecast(const Approach& approach, const LikelyPose& one);
+  void touches(const LikelyPose& one, const Vec2& along, const NearestOfPart& nearest, Forecast& result) const;
+
+  PartInPoses& lying_;
+  const TouchAnswer& answer_;
+  const std::vector<LikelyPose>& poses_;
+  PartDistance& part_;
+  std::vector<double> share_of_set_;  // of each pose, in the set that it stands for
+  bool has_normals_ = false;
+  double place_sd_ = 0;
+  double turn_sd_ = 0;
+};
+
+}  // namespace rollfix::touch

@@ -1,0 +1,177 @@
+#include "length_scales.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "rollfix/error.hpp"
+#include "weighing.hpp"
+
+// Notation:
+//   k               lengths are k times what was measured: `scale`, of one finger or of both
+//   chi^2(k)        of a few rows, k being open about its value by a standard deviation of `kOpenScale`: `by_cost`
+//   valley          a k that fits no worse than its neighbours
+// Follows docs/belief.md, "What may be wrong".
+// Idea: scales are tried so near together that the true one is within reach of an open scale about one of them. From
+// the best valleys on each belief says by how much more lengths are off, until it says none.
+namespace rollfix {
+namespace {
+
+// Scales of lengths are tried as far apart as this, each with an open scale about it of this standard deviation.
+constexpr double kScaleStep = 1.08;
+constexpr double kOpenScale = 0.04;
+// From a thousandth of what was measured, a unit that is taken for another, to where the turn forbids it.
+constexpr double kLeastScale = 0.9e-3;
+constexpr double kMostScale = 1.1e3;
+constexpr std::size_t kRadiiOfTwo = 9;  // the first of these
+constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0,   1.08,  1.16, 1.26, 2.0,
+                                                 1 / 25.4, 0.1,  10.0, 25.4, 0.001, 1000., 0.01, 100.0};
+// ... with which the longest roll is between these, in perimeters: shorter ones say nothing, longer ones nobody rolls.
+constexpr double kLeastRollOfTwo = 0.01;
+constexpr double kMostRollOfTwo = 8;
+// Beyond what Theta's own range allows, radians: noise.
+constexpr double kTurnBeyond = 0.5;
+constexpr double kTurnSigmas = 6;
+// Scales that are looked at with all rows.
+constexpr std::size_t kScalesToCompare = 5;
+// Those only that fit so many times as badly as the best one, give or take as much as there are rows.
+constexpr double kCloseCost = 3;
+constexpr int kMostSteps = 6;
+// A step of the scale that is this much of its standard deviation is the last one.
+constexpr double kSmallStep = 0.2;
+
+bool is_of(const Whose& whose, std::size_t finger) { return !whose || *whose == finger; }
+
+/// Lengths this many times as long: of a disk with a radius that is.
+Problem with_lengths(const Problem& problem, const Whose& whose, double scale) {
+  Problem scaled = problem;
+  if (whose && scaled.fingers.size() == 1) scaled.fingers.push_back(scaled.fingers.front());
+  for (std::size_t k = 0; k < scaled.fingers.size(); ++k) {
+    Finger& finger = scaled.fingers[k];
+    if (is_of(whose, k) && finger.is_disk()) finger = disk(scale * finger.disk()->radius);
+  }
+  return scaled;
+}
+
+Observation with_lengths(const Observation& observed, const Whose& whose, double scale) {
+  Observation scaled = observed;
+  for (std::vector<Reading>* readings : {&scaled.readings, &scaled.rolls}) {
+    for (Reading& reading : *readings) {
+      for (std::size_t k = 0; k < reading.length.size(); ++k) {
+        if (is_of(whose, k)) reading.length[k] *= scale;
+      }
+    }
+  }
+  return scaled;
+}
+
+double common_scale(const PerFinger<double>& scale) {
+  if (scale.size() == 1) return scale[0];
+  return std::sqrt(scale[0] * scale[1]);
+}
+
+}  // namespace
+
+std::vector<double> LengthScales::worth_a_look(const Whose& whose) const {
+  std::vector<std::pair<double, double>> by_cost;
+  for (const double scale : all(whose)) {
+    std::optional<Belief> belief = belief_with(whose, scale, kRowsToCompare);
+    if (belief && std::isfinite(belief->fit().chi_square)) by_cost.emplace_back(belief->fit().chi_square, scale);
+  }
+  std::sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<std::pair<double, double>> valleys;
+  for (std::size_t k = 0; k < by_cost.size(); ++k) {
+    const bool is_valley = (k == 0 || by_cost[k - 1].first >= by_cost[k].first) &&
+                           (k + 1 == by_cost.size() || by_cost[k + 1].first >= by_cost[k].first);
+    if (is_valley) valleys.push_back(by_cost[k]);
+  }
+  std::sort(valleys.begin(), valleys.end());
+  if (valleys.size() > kScalesToCompare) valleys.resize(kScalesToCompare);
+  std::vector<double> found;
+  for (const auto& [cost, scale] : valleys) {
+    if (cost <= kCloseCost * (valleys.front().first + kRowsToCompare)) found.push_back(scale);
+  }
+  return found;
+}
+
+/// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
+std::vector<double> LengthScales::all(const Whose& whose) const {
+  std::vector<double> scales;
+  if (rows_felt(problem_, observed_).front().fingers() == 2) {
+    // One finger's unit is the other's as well.
+    const auto end = whose ? kScalesOfTwo.begin() + kRadiiOfTwo : kScalesOfTwo.end();
+    std::copy_if(kScalesOfTwo.begin(), end, std::back_inserter(scales),
+                 [&](double scale) { return may_be_of_two(scale); });
+    return scales;
+  }
+  for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {
+    if (may_be(scale)) scales.push_back(scale);
+  }
+  return scales;
+}
+
+bool LengthScales::may_be_of_two(double scale) const {
+  double longest = 0;
+  for (const Reading& row : rows_felt(problem_, observed_)) {
+    for (const double length : row.length) longest = std::max(longest, std::abs(length));
+  }
+  const double laps = scale * longest / problem_.part.perimeter();
+  return laps >= kLeastRollOfTwo && laps <= kMostRollOfTwo;
+}
+
+/// Theta's own range and the turn that was felt confine what a length can be.
+bool LengthScales::may_be(double scale) const {
+  const std::vector<Reading>& rows = rows_felt(problem_, observed_);
+  const TurningFunction& turning = problem_.part.turning();
+  const double P = problem_.part.perimeter();
+  if (turn_beyond_ < 0) {
+    double lo = 0;
+    double hi = 0;
+    const double per_length = turning.period_turn() / P;
+    for (const Spiral& spiral : turning.spirals()) {
+      for (const double off :
+           {spiral.start.angle - per_length * spiral.lo, spiral.end.angle - per_length * spiral.hi}) {
+        lo = std::min(lo, off);
+        hi = std::max(hi, off);
+      }
+    }
+    turn_beyond_ = 2 * (hi - lo) + kTurnBeyond + kTurnSigmas * problem_.noise->angle;
+  }
+  if (!problem_.part.closed()) {
+    return std::all_of(rows.begin(), rows.end(),
+                       [&](const Reading& row) { return std::abs(row.length[0]) * scale <= 1.1 * P; });
+  }
+  return std::all_of(rows.begin(), rows.end(), [&](const Reading& row) {
+    return std::abs(row.turn - turning.period_turn() * row.length[0] * scale / P) <= turn_beyond_;
+  });
+}
+
+std::optional<SettledScale> LengthScales::settled(const Whose& whose, double scale) const {
+  std::optional<Belief> belief;
+  Fit fit;
+  for (int step = 0; step < kMostSteps; ++step) {
+    belief = belief_with(whose, scale, rows_felt(problem_, observed_).size());
+    if (!belief) return std::nullopt;
+    fit = belief->fit();
+    const double by = whose ? fit.length_scale[*whose] : common_scale(fit.length_scale);
+    const double sd = std::max(fit.length_scale_sd[whose.value_or(0)], 1e-12);
+    scale *= by;
+    // What is far off everywhere asks for any scale.
+    if (!(scale >= kLeastScale / kScaleStep && scale <= kMostScale * kScaleStep)) return std::nullopt;
+    if (std::abs(by - 1) < kSmallStep * sd) break;
+  }
+  return SettledScale{scale, scale * fit.length_scale_sd[whose.value_or(0)], *std::move(belief)};
+}
+
+std::optional<Belief> LengthScales::belief_with(const Whose& whose, double scale, std::size_t rows) const {
+  try {
+    return believe(with_lengths(problem_, whose, scale), with_lengths(observed_, whose, scale),
+                   {kOpenScale, rows, true, {}, true, {}, whose});
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace rollfix

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "belief/posterior.hpp"
+#include "outline/turn.hpp"
+
+// Notation:
+//   s, T            a contact's place on the part and the tangent's angle there: Piece, with its share of a mode
+//   q, beta         where a contact was felt in the world, and u + psi: FeltContact
+//   (X, phi)        the part's pose: beta = phi + T + pi / 2, and q = X + R(phi) p(s); of two fingers the middle of
+//   both chord           from one contact to the other: its direction tells phi as well slid            how far a
+//   contact was felt along the finger from where it is; J: derivatives of the pose by what
+//                   the sensors may be off, `PoseSlopes`
+// Follows docs/rolling.md, "Where the part is".
+// Idea: mean and covariance of the poses of all pieces, and beside them J C J^T of the sensors' own errors C.
+namespace rollfix::belief {
+
+namespace {
+
+// Steps that derivatives are taken by: a share of the perimeter, and radians.
+constexpr double kSlidStep = 1e-6;
+constexpr double kAngleStep = 1e-6;
+
+/// u + psi = heading + tangent + pi/2 at each finger's contact, and the contacts are at the same places in both frames:
+/// of two fingers the middle of what they say.
+/// `chord`: of two fingers, how much the direction from one contact to the other counts for the heading, the normals
+/// counting for the rest.
+Pose pose_with(const Part& part, const Piece& piece, const PerFinger<FeltContact>& felt, double chord) {
+  const auto heading_by = [&](std::size_t finger) {
+    return felt[finger].facing - 0.5 * std::numbers::pi - piece.tangent[finger];
+  };
+  Pose pose{0, 0, heading_by(0)};
+  if (felt.size() == 2) pose.heading += 0.5 * nearest_angle(heading_by(1) - heading_by(0));
+  if (chord > 0) {
+    const Vec2 on_part = part.point(piece.s[1]) - part.point(piece.s[0]);
+    pose.heading += chord * nearest_angle(angle_between(on_part, felt[1].where - felt[0].where) - pose.heading);
+  }
+  const double share = 1 / static_cast<double>(felt.size());
+  for (std::size_t finger = 0; finger < felt.size(); ++finger) {
+    const Vec2 origin = felt[finger].where - pose.turned(part.point(piece.s[finger]));
+    pose.x += share * origin.x();
+    pose.y += share * origin.y();
+  }
+  return pose;
+}
+
+/// A contact that is felt this far along the finger from where it is, counter-clockwise, with the finger's orientation
+/// off by this angle.
+FeltContact moved(const FeltContact& contact, double along, double angle) {
+  FeltContact off = contact;
+  const double turn = along * contact.finger_curvature + angle;
+  off.facing += turn;
+  const Vec2 tangent(-std::sin(contact.facing), std::cos(contact.facing));
+  const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
+  off.where += (along + radius * angle) * tangent;
+  return off;
+}
+
+/// Where the contacts were, as far as all the samples tell.
+PerFinger<FeltContact> told(const PerFinger<FeltContact>& felt, const Piece& piece) {
+  PerFinger<FeltContact> contacts = felt;
+  if (felt.size() == 1) return contacts;
+  for (std::size_t finger = 0; finger < felt.size(); ++finger) {
+    contacts[finger] = moved(felt[finger], piece.slid[finger], 0);
+  }
+  return contacts;
+}
+
+Eigen::Vector3d off(const Pose& pose, const Pose& reference) {
+  return {pose.x - reference.x, pose.y - reference.y, nearest_angle(pose.heading - reference.heading)};
+}
+
+/// What the sensors' own errors add at one finger's first contact. The contact's moves it along the tangent and turns
+/// the normal, the orientation's turns it about the contact.
+Eigen::Matrix3d sensors_of_one(const FeltContact& felt, const Pose& mean, const Noise& noise) {
+  const Vec2 arm = felt.where - Vec2(mean.x, mean.y);  // from the contact to the origin, turned back
+  const Eigen::Vector3d by_turn(arm.y(), -arm.x(), 1);
+  const Eigen::Vector3d along(-std::sin(felt.facing), std::cos(felt.facing), 0);  // counter-clockwise
+  const Eigen::Vector3d by_contact = along + felt.finger_curvature * by_turn;
+  Eigen::Vector3d by_angle = by_turn;
+  if (felt.finger_curvature > 0) by_angle += along / felt.finger_curvature;
+  return noise.contact * noise.contact * by_contact * by_contact.transpose() +
+         noise.angle * noise.angle * by_angle * by_angle.transpose();
+}
+
+/// Of poses with a spread of their own.
+PoseSpread spread_over(const std::vector<Piece>& pieces) {
+  const Pose reference = pieces.front().pose->mean;
+  double total = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Piece& piece : pieces) {
+    const Eigen::Vector3d by = off(piece.pose->mean, reference);
+    total += piece.share;
+    sum += piece.share * by;
+    squares += piece.share * (by * by.transpose() + piece.pose->covariance);
+  }
+  const Eigen::Vector3d mean = sum / total;
+  return {{reference.x + mean.x(), reference.y + mean.y(), nearest_angle(reference.heading + mean.z())},
+          squares / total - mean * mean.transpose()};
+}
+
+/// How the pose changes with what each of two fingers slid at first, and with the error of its orientation.
+struct PoseSlopes {
+  Eigen::Matrix<double, 3, 2> by_slid = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix<double, 3, 2> by_angle = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix<double, 3, 4> by_position = Eigen::Matrix<double, 3, 4>::Zero();  // of the centres
+};
+
+/// As the centres are known, the direction from one contact to the other tells the heading, and so do the normals: each
+/// counts as much as it is sure.
+double chord_share(const PerFinger<FeltContact>& felt, const Noise& noise) {
+  if (felt.size() == 1 || !(noise.position > 0)) return 0;
+  const double by_normals = 0.5 * noise.angle * noise.angle;
+  double across = 2 * noise.position * noise.position;
+  for (const FeltContact& contact : felt) {
+    const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
+    across += square(radius * noise.angle);
+  }
+  const double by_chord = across / std::max((felt[1].where - felt[0].where).squaredNorm(), 1e-300);
+  return by_normals / std::max(by_normals + by_chord, 1e-300);
+}
+
+PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<FeltContact>& felt, double chord) {
+  const double step = kSlidStep * part.perimeter();
+  const Pose reference = pose_with(part, at, told(felt, at), chord);
+  PoseSlopes slopes;
+  for (std::size_t finger = 0; finger < felt.size(); ++finger) {
+    const auto column = static_cast<Eigen::Index>(finger);
+    PerFinger<FeltContact> contacts = told(felt, at);
+    contacts[finger] = moved(felt[finger], at.slid[finger] + step, 0);
+    slopes.by_slid.col(column) = off(pose_with(part, at, contacts, chord), reference) / step;
+    contacts[finger] = moved(felt[finger], at.slid[finger], kAngleStep);
+    slopes.by_angle.col(column) = off(pose_with(part, at, contacts, chord), reference) / kAngleStep;
+    for (const Eigen::Index axis : {0, 1}) {
+      contacts = told(felt, at);
+      contacts[finger].where[axis] += step;
+      slopes.by_position.col(2 * column + axis) = off(pose_with(part, at, contacts, chord), reference) / step;
+    }
+  }
+  return slopes;
+}
+
+}  // namespace
+
+PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<FeltContact>& felt,
+                          const Noise& noise) {
+  if (pieces.empty()) return {};
+  if (pieces.front().pose) return spread_over(pieces);
+  const bool is_one = felt.size() == 1;
+  const double chord = chord_share(felt, noise);
+  const Pose reference = pose_with(part, pieces.front(), told(felt, pieces.front()), chord);
+  const PoseSlopes slopes = is_one ? PoseSlopes{} : slopes_of_two(part, pieces.front(), felt, chord);
+  double total = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Piece& piece : pieces) {
+    const Eigen::Vector3d by = off(pose_with(part, piece, told(felt, piece), chord), reference);
+    total += piece.share;
+    sum += piece.share * by;
+    squares +=
+        piece.share * (by * by.transpose() + slopes.by_slid * piece.slid_covariance * slopes.by_slid.transpose());
+  }
+  const Eigen::Vector3d mean = total > 0 ? Eigen::Vector3d(sum / total) : Eigen::Vector3d::Zero();
+  PoseSpread spread;
+  spread.mean = {reference.x + mean.x(), reference.y + mean.y(), nearest_angle(reference.heading) + mean.z()};
+  if (total > 0) spread.covariance = squares / total - mean * mean.transpose();
+  if (is_one) {
+    spread.covariance += sensors_of_one(felt[0], spread.mean, noise);
+  } else {
+    spread.covariance += square(noise.angle) * slopes.by_angle * slopes.by_angle.transpose() +
+                         square(noise.position) * slopes.by_position * slopes.by_position.transpose();
+  }
+  return spread;
+}
+
+}  // namespace rollfix::belief

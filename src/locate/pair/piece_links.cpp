@@ -1,0 +1,278 @@
+#include "piece_links.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "pieces_meet.hpp"
+#include "slant.hpp"
+
+// Notation:
+//   piece           a connected set of pairs (s, t) within the tolerance: a box, a convex `hull`, or a `line`, off by
+//                   `error` at the most
+//   shift           whole laps by which a piece is moved in s and in t: (s, t) and (s + P, t) are one pair
+//   slack           pieces that come as near as this are one: `same_place_`, or `kJointWidth` P where both are exact
+//   slant           s + `kSlant` t, the direction that pieces are sorted along
+//   clump           pieces too small and too near together to be told apart, joined beforehand
+// Follows docs/search.md, "Two fingers", step 7.
+// Idea: sweep along the slant, and link the pieces that touch while their reaches are open.
+namespace rollfix {
+namespace {
+
+constexpr std::size_t kPiecesOfBand = 1024;
+
+// What is found where a finger pivots may be a million pieces at one place, and each meets each. Those that begin in
+// the same square with sides of this share of the width below which places are one are joined to the first of them, a
+// clump.
+constexpr double kClump = 0.25;
+
+/// Can nothing in the piece be told from its box's corner? `width` is a clump's.
+bool is_a_point(const PairPiece& piece, double width) {
+  return !piece.exact && piece.line.empty() &&
+         std::max(piece.box[0].width(), piece.box[1].width()) + piece.error <= width;
+}
+
+/// Sets of numbers below `count`, at first one each.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+
+  std::size_t of(std::size_t number) {
+    while (parent_[number] != number) number = parent_[number] = parent_[parent_[number]];
+    return number;
+  }
+  void join(std::size_t one, std::size_t two) { parent_[of(two)] = of(one); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+class Linker {
+ public:
+  Linker(const std::vector<PairPiece>& pieces, const Boundary& boundary, double same_place)
+      : pieces_(pieces),
+        boundary_(boundary),
+        same_place_(same_place),
+        room_(pieces_.size(), 0),
+        joined_(pieces_.size()),
+        links_(pieces_.size()) {}
+
+  std::vector<std::vector<PieceLink>> run() {
+    link();
+    for (std::vector<PieceLink>& links : links_) {
+      std::stable_partition(links.begin(), links.end(), [&](const PieceLink& link) { return pieces_[link.to].exact; });
+    }
+    return std::move(links_);
+  }
+
+ private:
+  std::vector<Shift> shifts() const {
+    if (!boundary_.closed) return {{0, 0}};
+    std::vector<Shift> all;
+    for (const double s : {0.0, -boundary_.perimeter, boundary_.perimeter}) {
+      for (const double t : {0.0, -boundary_.perimeter, boundary_.perimeter}) all.push_back({s, t});
+    }
+    return all;
+  }
+
+  double slack_of(bool both_exact) const { return both_exact ? kJointWidth * boundary_.perimeter : same_place_; }
+
+  /// Where a piece can be, with its error, and with all of its clump.
+  PairBox reach_box(std::size_t piece) const {
+    return widened(pieces_[piece].box, pieces_[piece].error + room_[piece]);
+  }
+
+  void join(std::size_t one, std::size_t two, const Shift& shift) {
+    joined_.join(one, two);
+    links_[one].push_back({two, shift});
+    links_[two].push_back({one, {-shift[0], -shift[1]}});
+  }
+
+  /// A family is walked along all of its links; elsewhere it is enough that pieces hang together.
+  bool adds_nothing(std::size_t one, std::size_t two) {
+    return joined_.of(one) == joined_.of(two) && !(pieces_[one].exact && pieces_[two].exact);
+  }
+
+  /// Joins each clump to its first piece, which stands for it from here on: returns what is left to be swept.
+  std::vector<std::size_t> clump() {
+    std::vector<std::size_t> left;
+    std::map<std::array<double, 2>, std::size_t> firsts;
+    const double width = kClump * same_place_;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const PairBox& box = pieces_[k].box;
+      if (!is_a_point(pieces_[k], width)) {
+        left.push_back(k);
+        continue;
+      }
+      const auto [at, is_first] = firsts.try_emplace({std::floor(box[0].lo / width), std::floor(box[1].lo / width)}, k);
+      if (is_first) {
+        left.push_back(k);
+        continue;
+      }
+      const std::size_t first = at->second;
+      room_[first] = 2 * width;  // a square's side and a box in it
+      join(first, k, {0, 0});
+    }
+    return left;
+  }
+
+  /// Most pieces are so far from s = 0 and t = 0 that on other laps they meet nothing.
+  PairBox box_around_all() const {
+    PairBox all{Boundary::empty_arc(), Boundary::empty_arc()};
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const PairBox box = reach_box(k);
+      for (const std::size_t axis : {0U, 1U}) {
+        all[axis] = {std::min(all[axis].lo, box[axis].lo), std::max(all[axis].hi, box[axis].hi)};
+      }
+    }
+    return all;
+  }
+
+  /// Orders neighbours that begin at the same s: by how far they reach along s, and by where from.
+  void rank(const std::vector<std::size_t>& swept) {
+    std::vector<Interval> along_s;
+    along_s.reserve(swept.size());
+    for (const std::size_t k : swept) along_s.push_back(reach_box(k)[0]);
+    const auto width = [&](std::size_t at) {
+      return std::ilogb(std::max(along_s[at].width(), kJointWidth * boundary_.perimeter));
+    };
+    std::vector<std::size_t> order = by_place(along_s);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return width(a) < width(b); });
+    rank_.resize(pieces_.size());
+    for (std::size_t k = 0; k < order.size(); ++k) rank_[swept[order[k]]] = k;
+  }
+
+  /// Pieces that reach about as far along the slant, exact ones or others. Of many, those that begin at about the same
+  /// t are a band: an area has as many on the same slant as it is wide. In each in order of where they begin on the
+  /// slant.
+  struct Strip {
+    std::vector<std::vector<std::size_t>> bands;
+    double band_from = 0;    // t at which the first begins
+    double band_height = 0;  // along t
+    double tallest = 0;      // piece along t
+    double widest = 0;       // piece along the slant
+    bool exact = false;
+
+    std::size_t band_at(double t) const {
+      const auto last = static_cast<double>(bands.size() - 1);
+      return last > 0 ? static_cast<std::size_t>(std::clamp((t - band_from) / band_height, 0.0, last)) : 0;
+    }
+  };
+  using Strips = std::map<std::pair<int, bool>, Strip>;
+
+  Strips strips(const std::vector<std::size_t>& swept, const PairBox& whole) {
+    Strips strips;
+    for (const std::size_t k : swept) {
+      const bool exact = pieces_[k].exact;
+      Strip& strip = strips[{std::ilogb(std::max(reach_[k].width(), slack_of(exact))), exact}];
+      if (strip.bands.empty()) strip.bands.resize(1);
+      strip.bands.front().push_back(k);
+      strip.widest = std::max(strip.widest, reach_[k].width());
+      strip.exact = exact;
+    }
+    for (auto& [key, strip] : strips) {
+      split_in_bands(strip, whole[1]);
+      for (std::vector<std::size_t>& band : strip.bands) {
+        std::sort(band.begin(), band.end(), [&](std::size_t a, std::size_t b) { return reach_[a].lo < reach_[b].lo; });
+      }
+    }
+    return strips;
+  }
+
+  void split_in_bands(Strip& strip, const Interval& t) const {
+    const std::size_t count = 1 + strip.bands.front().size() / kPiecesOfBand;
+    if (count == 1 || !(t.width() > 0)) return;
+    const std::vector<std::size_t> all = std::move(strip.bands.front());
+    strip.bands.assign(count, {});
+    strip.band_from = t.lo;
+    strip.band_height = t.width() / static_cast<double>(count);
+    for (const std::size_t k : all) {
+      const Interval along_t = reach_box(k)[1];
+      strip.bands[strip.band_at(along_t.lo)].push_back(k);
+      strip.tallest = std::max(strip.tallest, along_t.width());
+    }
+  }
+
+  /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
+  /// one with a large error, has every narrow one looked at; and exact ones, which are joined from further off, too.
+  void link() {
+    if (pieces_.size() < 2) return;
+    const std::vector<std::size_t> swept = clump();
+    reach_.reserve(pieces_.size());
+    for (std::size_t k = 0; k < pieces_.size(); ++k) reach_.push_back(along_slant(reach_box(k)));
+    rank(swept);
+    const PairBox whole = box_around_all();
+    const Strips all = strips(swept, whole);
+    std::vector<std::size_t> near;
+    for (const Shift& shift : shifts()) {
+      const PairBox moved_whole = moved(whole, shift);
+      for (const std::size_t one : swept) {
+        if (!boxes_meet(reach_box(one), moved_whole, 2 * kJointWidth * boundary_.perimeter)) continue;
+        near.clear();
+        for (const auto& [key, strip] : all) add_near(strip, one, shift, near);
+        std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
+          return std::tie(pieces_[a].box[0].lo, rank_[a]) < std::tie(pieces_[b].box[0].lo, rank_[b]);
+        });
+        for (const std::size_t two : near) {
+          if (adds_nothing(one, two)) continue;
+          const bool both_exact = pieces_[one].exact && pieces_[two].exact;
+          const double slack = slack_of(both_exact) + room_[one] + room_[two];
+          if (!pieces_meet(pieces_[one], pieces_[two], shift, slack)) continue;
+          if (both_exact) {  // the other way as well, when it is that one's turn
+            joined_.join(one, two);
+            links_[one].push_back({two, shift});
+          } else {
+            join(one, two, shift);
+          }
+        }
+      }
+    }
+  }
+
+  /// Those whose boxes, moved by the shift, meet the piece's.
+  void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) {
+    const PairPiece& one = pieces_[piece];
+    const double slack = slack_of(one.exact && strip.exact);
+    const double by = along_slant(shift);
+    const double room = along_slant(PairPoint{slack, slack});
+    const double from = reach_[piece].lo - by - strip.widest - room;
+    const double to = reach_[piece].hi - by + room;
+    const double t = strip.bands.size() > 1 ? reach_box(piece)[1].lo - shift[1] : 0;
+    const double height = strip.bands.size() > 1 ? reach_box(piece)[1].width() : 0;
+    const std::size_t last = strip.band_at(t + height + slack);
+    for (std::size_t at = strip.band_at(t - slack - strip.tallest); at <= last; ++at) {
+      const std::vector<std::size_t>& band = strip.bands[at];
+      auto next = std::lower_bound(band.begin(), band.end(), from,
+                                   [&](std::size_t k, double value) { return reach_[k].lo < value; });
+      for (; next != band.end() && reach_[*next].lo <= to; ++next) {
+        if (*next != piece && !adds_nothing(piece, *next) &&
+            boxes_meet(reach_box(piece), moved(reach_box(*next), shift), slack)) {
+          near.push_back(*next);
+        }
+      }
+    }
+  }
+
+  const std::vector<PairPiece>& pieces_;
+  const Boundary& boundary_;
+  double same_place_;
+  std::vector<double> room_;       // around each piece for the rest of its clump
+  Sets joined_;                    // what hangs together by links
+  std::vector<Interval> reach_;    // of each piece along the slant
+  std::vector<std::size_t> rank_;  // of each piece
+  std::vector<std::vector<PieceLink>> links_;
+};
+
+}  // namespace
+
+std::vector<std::vector<PieceLink>> links_of(const std::vector<PairPiece>& pieces, const Boundary& boundary,
+                                             double same_place) {
+  return Linker(pieces, boundary, same_place).run();
+}
+
+}  // namespace rollfix
