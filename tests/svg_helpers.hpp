@@ -1,6 +1,9 @@
 #pragma once
 
+#include <boost/math/special_functions/ellint_2.hpp>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -60,5 +63,15 @@ inline std::string message_of(const std::string& text) {
 }
 
 inline std::string message_of_path(const std::string& data) { return message_of(svg("<path d='" + data + "'/>")); }
+
+inline std::vector<Vec2> points(std::initializer_list<Vec2> list) { return list; }
+
+inline std::vector<double> numbers(const Drawing& drawing, std::size_t k = 0) {
+  return drawing.curves.at(k).curve.record()->numbers;
+}
+
+inline double ellipse_length(double a, double b) {
+  return 4 * a * boost::math::ellint_2(std::sqrt(1 - b * b / (a * a)));
+}
 
 }  // namespace svg_test
