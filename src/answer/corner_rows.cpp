@@ -117,15 +117,14 @@ bool is_beyond(const Problem& problem) {
 
 }  // namespace
 
-bool weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const Observation& observed,
-                       Answer& answer) {
+CornerRowsSay weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const Observation& observed,
+                                Answer& answer) {
   const RowsOnCorners rows(problem, leading, observed);
-  if (rows.empty() || is_beyond(problem) || answer.placements.empty()) return false;
+  if (rows.empty() || is_beyond(problem) || answer.placements.empty()) return {};
   std::vector<double> squares;
   for (const Placement& placement : answer.placements) squares.push_back(std::pow(rows.sigmas(placement), 2));
   const double least = *std::min_element(squares.begin(), squares.end());
-  if (*std::max_element(squares.begin(), squares.end()) == 0) return false;
-  answer.verdict.fits_badly |= least > Fit::kMostSigmas * Fit::kMostSigmas;
+  if (*std::max_element(squares.begin(), squares.end()) == 0) return {};
   answer.weighing->evidence.volume -= 0.5 * least;
   std::vector<Placement> listed;
   for (std::size_t k = 0; k < squares.size(); ++k) {
@@ -137,7 +136,7 @@ bool weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const
                    [](const Placement& a, const Placement& b) { return a.probability > b.probability; });
   answer.placements = std::move(listed);
   answer.dropped.improbable = answer.weighing->improbable.size();
-  return true;
+  return {true, least > Fit::kMostSigmas * Fit::kMostSigmas};
 }
 
 }  // namespace rollfix

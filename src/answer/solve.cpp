@@ -70,7 +70,6 @@ void search(const Problem& problem, const LeadingRows& leading, Answer& answer) 
   Search found = leading.readings.empty() ? locate(answer.part, answer.readings, options)
                                           : search_from_row(leading, options, answer);
   answer.status = found.status;
-  answer.verdict = found.verdict();
   answer.placements = std::move(found.placements);
   answer.unresolved = std::move(found.unresolved);
   answer.counts = found.counts;
@@ -139,9 +138,16 @@ void drop_impossible(const Problem& problem, const Observation& observed, Answer
   for (const Impossible& item : answer.impossible) {
     ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
   }
-  if (!answer.impossible.empty() && answer.status == Status::complete) {
-    answer.verdict = verdict_of(Status::complete, answer.placements);
-  }
+}
+
+/// Without noise. Rows that contradict every place are wrong themselves: the places count all the same.
+Verdict verdict_of(const Answer& answer, bool fits_badly) {
+  if (!fits_badly) return verdict_of(answer.status, answer.placements);
+  std::vector<Placement> placements = answer.placements;
+  for (Placement& placement : placements) placement.is_contradicted = false;
+  Verdict verdict = verdict_of(answer.status, placements);
+  verdict.fits_badly = true;
+  return verdict;
 }
 
 /// Where the part is in the world, where a log tells.
@@ -188,15 +194,16 @@ Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool e
   search(problem, leading, answer);
   const bool all_rows_count = !belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty();
   if (all_rows_count && leading.count == 0) search_all_rows(problem, observed, answer);
-  if (belief) weigh(problem, observed, explains, *belief, answer);
+  bool fits_badly = belief && weigh(problem, observed, explains, *belief, answer);
   drop_impossible(problem, observed, answer);
   if (belief) {
-    const bool is_reweighed = weigh_corner_rows(problem, leading, observed, answer);
-    conclude(*belief, answer, is_reweighed);
+    const CornerRowsSay corner_rows = weigh_corner_rows(problem, leading, observed, answer);
+    conclude(*belief, answer, corner_rows.are_heeded, fits_badly || corner_rows.fits_badly);
     to_last_contacts(observed, *problem.noise, answer);
   }
   add_poses(problem, answer);
-  if (all_rows_count) check_rows(problem, observed, explains, answer);
+  if (all_rows_count) fits_badly = !check_rows(problem, observed, explains, answer);
+  if (!belief) answer.verdict = verdict_of(answer, fits_badly);
   return answer;
 }
 

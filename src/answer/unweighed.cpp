@@ -245,18 +245,15 @@ std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation&
   return RowsCheck(problem, observed, answer).row_to_ask();
 }
 
-void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {
+bool check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {
   const RowsCheck check(problem, observed, answer);
   for (Placement& placement : answer.placements) placement.is_contradicted = check.contradicts(placement);
   const auto contradicted =
       std::stable_partition(answer.placements.begin(), answer.placements.end(),
                             [](const Placement& placement) { return !placement.is_contradicted; });
-  if (contradicted != answer.placements.begin()) {
-    if (answer.status == Status::complete) answer.verdict = verdict_of(answer.status, answer.placements);
-    return;
-  }
-  answer.verdict.fits_badly = true;
+  if (contradicted != answer.placements.begin()) return true;
   if (explains) answer.diagnoses = diagnoses_of(problem, observed);
+  return false;
 }
 
 }  // namespace rollfix

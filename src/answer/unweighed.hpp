@@ -23,9 +23,8 @@ double rounding_of_column(const std::vector<double>& values);
 /// about it as well. Nothing where all rows fit those places.
 std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
 
-/// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last; the
-/// verdict is of the others. Where none is left it says that the rows fit badly, and why, if it `explains`. REQUIRES a
-/// log, and poses where it has them.
-void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer);
+/// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last. Where none
+/// is left the rows fit badly, which is false, and why, if it `explains`. REQUIRES a log, and poses where it has them.
+bool check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer);
 
 }  // namespace rollfix

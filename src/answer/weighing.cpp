@@ -196,7 +196,7 @@ void keep_probabilities(Answer& answer) {
 
 }  // namespace
 
-void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer) {
+bool weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer) {
   const Doing doing("weighing all rows");
   Weighing weighing;
   weighing.noise = *problem.noise;
@@ -210,15 +210,13 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
   weighing.evidence = belief.evidence();
   if (explains) answer.diagnoses = diagnose(problem, observed, belief);
   weighing.density = belief.density();
-  answer.verdict = belief.verdict();
-  if (explains && answer.diagnoses.empty()) {
-    answer.diagnoses = diagnoses_by_centres(problem, observed);
-    if (!answer.diagnoses.empty()) answer.verdict.fits_badly = true;
-  }
+  const bool are_explained = !answer.diagnoses.empty();
+  if (explains && !are_explained) answer.diagnoses = diagnoses_by_centres(problem, observed);
+  const Verdict::Name verdict = belief.verdict().name;
   Weighed weighed = weigh(answer.part, answer.readings, answer.facing, answer.placements, belief);
   weighing.improbable = std::move(weighed.improbable);
   add_pose_spreads(problem, belief, weighed.placements);
-  if (answer.verdict.name == Verdict::inconsistent) {
+  if (verdict == Verdict::inconsistent) {
     for (Placement& placement : weighed.placements) weighing.improbable.push_back(std::move(placement));
     weighed.placements.clear();
   }
@@ -226,24 +224,26 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
   answer.dropped.improbable = weighing.improbable.size();
   if (answer.finger_count() == 2) {  // what is listed is the posterior's: the search only says what kinds they are
     answer.status = weighing.rest <= kMostRest ? Status::complete : Status::incomplete;
-  } else if (answer.verdict.name == Verdict::undecided) {
+  } else if (verdict == Verdict::undecided) {
     answer.status = Status::incomplete;
   }
   answer.weighing = std::move(weighing);
   keep_probabilities(answer);
+  return !are_explained && !answer.diagnoses.empty();
 }
 
-void conclude(Belief& belief, Answer& answer, bool is_reweighed) {
+void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly) {
   if (!answer.impossible.empty() || is_reweighed) {
     double total = 0;
     for (const Placement& placement : answer.placements) total += placement.probability;
     for (Placement& placement : answer.placements) placement.probability /= total;
     answer.weighing->rest = std::min(1.0, answer.weighing->rest / std::max(total, 1e-300));
     answer.weighing->evidence.volume += std::log(total);
-    const bool fits_badly = answer.verdict.fits_badly;
     answer.verdict = belief.verdict_on(answer.placements);
-    answer.verdict.fits_badly |= fits_badly;
+  } else {
+    answer.verdict = belief.verdict();
   }
+  answer.verdict.fits_badly |= fits_badly;
   const double as_said = trust(answer);
   if (as_said == 1) return keep_probabilities(answer);
   double listed = 0;

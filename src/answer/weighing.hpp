@@ -39,10 +39,13 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
 std::vector<Mode> modes_of(Belief& belief);
 
 /// Puts what the samples leave in place of what the search found. What nothing explains is not listed. Unless it
-/// `explains`, nothing is said of what may be wrong.
-void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer);
+/// `explains`, nothing is said of what may be wrong. True: the belief does not know that the rows fit badly, but the
+/// fingers' centres say so.
+bool weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer);
 
-/// After the fingers dropped some, or rows on their corners did: the others' probabilities, as if there were no more.
-void conclude(Belief& belief, Answer& answer, bool is_reweighed = false);
+/// The verdict, and how probable places are: after the fingers dropped some, or rows on their corners did, as if there
+/// were no more than the others; in doubt where something else explains the rows as well. `fits_badly`: what was found
+/// of the rows besides.
+void conclude(Belief& belief, Answer& answer, bool is_reweighed = false, bool fits_badly = false);
 
 }  // namespace rollfix
