@@ -36,6 +36,23 @@ def test_five_balls_give_the_pose(found):
     assert (lo <= truth).all() and (truth <= hi).all()
 
 
+def test_an_outlier_is_named(bracket, found):
+    touches = [*FIVE, (112.243, 107.744), (150, 70)]
+    robust = bracket.locate(touches=touches, finger=rollfix.Disk(3), noise=NOISE, robust=True)
+    assert robust.verdict == "unique"
+    assert robust.placements[0]["outliers"] == [6]
+    assert robust.outlier[6] > 0.999 > max(robust.outlier[:6])
+    assert np.allclose(robust.poses, found.poses, atol=0.2)
+
+
+def test_one_touch_makes_a_known_pose_better(bracket):
+    pose = (120.2, 45.1, math.radians(12), 0.5, math.radians(0.2))
+    known = bracket.locate(touches=FIVE[:1], finger=rollfix.Disk(3), noise=NOISE, pose=pose)
+    assert known.verdict == "unique"
+    variance = known.placements[0]["pose_covariance"]
+    assert variance[0][0] < 0.2 * 0.5**2 < variance[1][1]
+
+
 def test_the_program_says_the_same(found, program):
     touches = [word for x, y in FIVE for word in ("--touch", f"{x},{y}")]
     command = [program.path, "locate", str(BRACKET), *touches, "--finger", "disk,r=3", "--noise", "position=0.02", "--json"]
