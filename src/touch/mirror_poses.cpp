@@ -29,7 +29,7 @@ void mirror(TouchPose& pose) {
   mean = {-mean.x, mean.y, -mean.heading};
   const Eigen::Vector3d signs(-1, 1, -1);
   pose.spread.covariance = Eigen::Matrix3d(signs.asDiagonal() * pose.spread.covariance * signs.asDiagonal());
-  for (const std::size_t i : {0, 2}) {
+  for (const std::size_t i : {0U, 2U}) {
     for (MixtureTerm& term : pose.density[i]) term.mean = -term.mean;
   }
   for (TouchContact& contact : pose.contacts) {

@@ -64,7 +64,7 @@ TEST(TouchOutliers, OfAPartFaceDownAreNamedAsWell) {
 
 TEST(TouchOutliers, ThatAreMoreThanChanceMakesContradictTheNoise) {
   TouchProblem problem = seven_touches();
-  for (const std::size_t k : {0, 2, 3}) problem.touches[k].at += Vec2(1.3, 1.1 * (1.0 + static_cast<double>(k)));
+  for (const std::size_t k : {0U, 2U, 3U}) problem.touches[k].at += Vec2(1.3, 1.1 * (1.0 + static_cast<double>(k)));
   EXPECT_NE(solve(problem).verdict_text(), "unique");
 }
 
