@@ -84,7 +84,6 @@ class OutlierSets {
 
   void solve() {
     const std::size_t count = touches_.size();
-    answer_.verdict.name = Verdict::inconsistent;
     bool is_settled = false;
     std::size_t size = 0;
     for (std::size_t left = most_outliers(count) + 1; left > 0 && !is_settled; --left, ++size) {
@@ -187,7 +186,8 @@ class OutlierSets {
 
   /// All touches leave the pose open, outliers or not.
   void leave_open() {
-    answer_.verdict.name = Verdict::unobservable;
+    answer_.anywhere = 1;
+    answer_.outlier.assign(touches_.size(), belief::kOutlierShare);
     answer_.log_evidence = 0;  // the same on any part
   }
 

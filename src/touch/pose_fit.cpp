@@ -338,6 +338,12 @@ FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
   return {state.pose, std::move(places), state.square, normals_of(state, {}).matrix};
 }
 
+FittedPose PoseFit::at(const Pose& pose) const {
+  std::vector<PathPlace> places;
+  for (const OnPath& one : start(pose, {}).contacts) places.push_back(one.place);
+  return at(pose, std::move(places));
+}
+
 PoseFit::State PoseFit::start(const Pose& from, const std::optional<Held>& held) const {
   State state{from, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {

@@ -84,6 +84,9 @@ class PoseFit {
   /// A pose with the contacts at these places, as it is.
   FittedPose at(const Pose& pose, std::vector<PathPlace> places) const;
 
+  /// The same with each contact where it is nearest.
+  FittedPose at(const Pose& pose) const;
+
   /// The point of the world about which poses are turned.
   const Vec2& about() const { return about_; }
   PathTree& tree(std::size_t touch) const { return *touches_[touch].tree; }

@@ -38,6 +38,39 @@ bool are_at_one_place(const AllContacts& contacts) {
          });
 }
 
+void conclude(TouchAnswer& answer) {
+  Verdict& verdict = answer.verdict;
+  const std::vector<TouchPose>& poses = answer.poses;
+  verdict.fits_badly |= (answer.fit && answer.fit->is_bad()) || has_many_outliers(answer);
+  if (!answer.unresolved.empty()) {
+    answer.status = Status::incomplete;
+    verdict.name = Verdict::undecided;
+    return;
+  }
+  if (answer.anywhere > 1 - kSure) {
+    verdict.name = Verdict::unobservable;
+    return;
+  }
+  if (poses.empty()) {
+    verdict.name = Verdict::inconsistent;
+    return;
+  }
+  const bool is_sure = poses.size() == 1 || poses.front().probability >= kSure;
+  const std::size_t places = is_sure ? 1 : poses.size();
+  const auto stretches =
+      static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),
+                                             [](const TouchPose& pose) { return pose.continuum; }));
+  if (is_sure && poses.front().any_heading) {
+    verdict.name = Verdict::unobservable;
+  } else if (is_sure && stretches == 0) {
+    verdict.name = Verdict::unique;
+  } else {
+    verdict.name = Verdict::ambiguous;
+    verdict.places = places;
+    verdict.stretches = stretches;
+  }
+}
+
 void add_rolls(const TouchProblem& problem, const std::vector<RollContact>& rolls, TouchAnswer& answer) {
   for (std::size_t k = 0; k < rolls.size(); ++k) answer.rolls.push_back(facts_of(rolls[k], problem.rolls[k]));
   if (rolls.empty() || !problem.touches.empty()) return;
@@ -57,11 +90,34 @@ double log_evidence_of(const TouchProblem& problem, const AllContacts& contacts,
   return sum;
 }
 
+/// The poses of a roll alone by how likely they leave the clear paths free; the logarithm of what is left of them.
+double weigh_by_paths(const TouchProblem& problem, const AllContacts& contacts, TouchAnswer& answer) {
+  FreeSpace free(problem, contacts.each);
+  if (free.is_empty() || answer.poses.empty() || answer.place == PlaceKnown::unknown) return 0;
+  std::vector<PosteriorNode> nodes;
+  for (const TouchPose& pose : answer.poses) {
+    PosteriorNode node;
+    node.pose = pose.spread.mean;
+    node.covariance = pose.spread.covariance;
+    node.log_weight = std::log(pose.probability);
+    nodes.push_back(node);
+  }
+  free.weigh(nodes);
+  double left = 0;
+  for (const PosteriorNode& node : nodes) left += std::exp(node.log_weight);
+  for (std::size_t k = 0; k < nodes.size(); ++k) answer.poses[k].probability = std::exp(nodes[k].log_weight) / left;
+  std::erase_if(answer.poses, [](const TouchPose& pose) { return !(pose.probability >= kLeastProbability); });
+  put_in_order(answer.poses);
+  if (answer.status == Status::complete) conclude(answer);
+  return std::log(left);
+}
+
 /// Of one contact alone; of a touch there is nothing to say.
 void take_alone(const TouchProblem& problem, const AllContacts& contacts, TouchAnswer& answer) {
   if (!contacts.rolls.empty()) {
     take_from(contacts.rolls.front(), answer);
-    if (problem.noise) answer.log_evidence = log_evidence_of(problem, contacts, 0);
+    if (problem.noise)
+      answer.log_evidence = log_evidence_of(problem, contacts, weigh_by_paths(problem, contacts, answer));
     return;
   }
   answer.verdict.name = Verdict::unobservable;
@@ -124,44 +180,14 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
   answer.comparisons = abandoned + search->comparisons();
 }
 
-void conclude(TouchAnswer& answer) {
-  Verdict& verdict = answer.verdict;
-  const std::vector<TouchPose>& poses = answer.poses;
-  verdict.fits_badly |= (answer.fit && answer.fit->is_bad()) || has_many_outliers(answer);
-  if (!answer.unresolved.empty()) {
-    answer.status = Status::incomplete;
-    verdict.name = Verdict::undecided;
-    return;
-  }
-  if (poses.empty()) return;
-  if (answer.anywhere > 1 - kSure) {
-    verdict.name = Verdict::unobservable;
-    return;
-  }
-  const bool is_sure = poses.size() == 1 || poses.front().probability >= kSure;
-  const std::size_t places = is_sure ? 1 : poses.size();
-  const auto stretches =
-      static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),
-                                             [](const TouchPose& pose) { return pose.continuum; }));
-  if (is_sure && poses.front().any_heading) {
-    verdict.name = Verdict::unobservable;
-  } else if (is_sure && stretches == 0) {
-    verdict.name = Verdict::unique;
-  } else {
-    verdict.name = Verdict::ambiguous;
-    verdict.places = places;
-    verdict.stretches = stretches;
-  }
-}
-
 /// Every touch counts.
 void solve_counted(const TouchProblem& problem, TouchAnswer& answer) {
   AllContacts contacts(problem, answer.radius);
   for (const Measured& one : contacts.each) answer.tolerance.push_back({one.place_most, one.angle_most});
   add_rolls(problem, contacts.rolls, answer);
-  const bool is_one_touch = problem.touches.size() == 1 && problem.rolls.empty();
-  const bool by_prior = is_one_touch && contacts.each.front().has_place && knows_place(problem);
-  if ((contacts.each.size() == 1 || are_at_one_place(contacts)) && !by_prior) {
+  const bool is_alone = contacts.each.size() == 1 || are_at_one_place(contacts);
+  const bool by_prior = is_alone && problem.rolls.empty() && contacts.each.front().has_place && knows_place(problem);
+  if (is_alone && !by_prior) {
     take_alone(problem, contacts, answer);
     return;
   }
@@ -181,8 +207,8 @@ void solve_counted(const TouchProblem& problem, TouchAnswer& answer) {
 
 /// `problem`: as it is seen, of a part that lies face down in the mirror.
 void solve_seen(const TouchProblem& problem, TouchAnswer& answer) {
-  const bool may_have_outliers =
-      problem.robust && !problem.touches.empty() && problem.rolls.size() + problem.touches.size() > 1;
+  const bool is_one = problem.rolls.size() + problem.touches.size() == 1;
+  const bool may_have_outliers = problem.robust && !problem.touches.empty() && (!is_one || knows_place(problem));
   if (!may_have_outliers) return solve_counted(problem, answer);
   solve_with_outliers(problem, solve_counted, answer);
   conclude(answer);
@@ -213,7 +239,8 @@ TouchAnswer solve(const TouchProblem& problem) {
   const Doing doing(asked.rolls.empty() ? "looking for poses that fit the touches"
                                         : "looking for poses that fit all contacts");
   TouchAnswer answer = touch::solve_plain(asked);
-  const bool is_odd = answer.verdict.fits_badly || answer.verdict.name == Verdict::inconsistent;
+  const bool has_bad_fit = answer.verdict.fits_badly && !touch::has_many_outliers(answer);
+  const bool is_odd = has_bad_fit || answer.verdict.name == Verdict::inconsistent;
   if (asked.diagnose && is_odd && answer.status == Status::complete) {
     answer.diagnoses = asked.rolls.empty() ? touch::mistakes(asked) : touch::moved(asked, answer);
   }

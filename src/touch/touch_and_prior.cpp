@@ -34,14 +34,37 @@ struct AtPlace {
   double log_density = 0;
 };
 
+/// Touches at one place: along the normal, where they tell something, their mean.
+Measured as_one(const std::vector<Measured>& touches) {
+  Measured one = touches.front();
+  double information = 0;
+  Vec2 sum = Vec2::Zero();
+  for (const Measured& touch : touches) {
+    information += 1 / squared(touch.place_unit);
+    sum += touch.at / squared(touch.place_unit);
+  }
+  one.at = sum / information;
+  one.place_unit = 1 / std::sqrt(information);
+  return one;
+}
+
+/// log of what the other touches' places on the boundary add up to, as each is anywhere by itself.
+double log_of_others(const std::vector<Measured>& touches) {
+  double sum = -std::log(as_one(touches).place_unit * std::sqrt(2 * std::numbers::pi));
+  for (const Measured& touch : touches) sum += std::log(touch.place_unit * std::sqrt(2 * std::numbers::pi));
+  return sum;
+}
+
 class Grid {
  public:
   explicit Grid(const Asked& asked)
-      : touch_(asked.fit.touches().front()),
+      : touch_(as_one(asked.fit.touches())),
         path_(asked.fit.path(0)),
         prior_(*asked.problem.pose),
         place_sd_(std::hypot(touch_.place_unit, prior_.place_sd)) {
     for (std::size_t k = 0; k < path_.stretches().size(); ++k) add_stretch(k);
+    const double log_weight = log_of_others(asked.fit.touches());
+    for (PosteriorNode& node : nodes_) node.log_weight += log_weight;
   }
 
   /// Those of one set, whose places hang together, are of one group.
@@ -134,7 +157,7 @@ class Grid {
     nodes_.push_back(node);
   }
 
-  const Measured& touch_;
+  Measured touch_;
   const CentrePath& path_;
   const PosePrior& prior_;
   double place_sd_;

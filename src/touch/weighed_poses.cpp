@@ -17,6 +17,8 @@ namespace {
 
 // Sets of poses that are as improbable as this are not even looked at.
 constexpr double kNegligible = 1e-8;
+// Nodes that are looked at for one that leaves the clear paths free.
+constexpr std::size_t kLooksForFree = 200;
 // Probabilities nearer than this share of them are one but for rounding.
 constexpr double kAsProbable = 1e-6;
 // Weighing poses with the first touch at one place takes as long as this many comparisons.
@@ -72,7 +74,18 @@ bool fits_better(const TouchFit& one, const TouchFit& other) {
   return one.p > other.p || (one.p == other.p && one.freedom > other.freedom);
 }
 
-/// A set as a pose of the answer; of a continuum the one in its middle.
+/// The most probable node that leaves all clear paths free; nullptr if none does.
+const PosteriorNode* likeliest_free(const Asked& asked, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
+  std::vector<std::size_t> order = mode.nodes;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return nodes[a].log_weight > nodes[b].log_weight; });
+  if (order.size() > kLooksForFree) order.resize(kLooksForFree);
+  const auto free =
+      std::find_if(order.begin(), order.end(), [&](std::size_t k) { return !asked.free.is_blocked(nodes[k].pose); });
+  return free == order.end() ? nullptr : &nodes[*free];
+}
+
+/// A set as a pose of the answer; of a continuum the one in its middle, unless the part is in the way of a path there.
 TouchPose weighed_pose(const Asked& asked, const PoseSet& set, const std::vector<PosteriorNode>& nodes) {
   const auto with = [&](const FittedPose& fitted) {
     TouchPose pose = described(asked.fit, fitted, set.cells, asked.pair);
@@ -81,9 +94,13 @@ TouchPose weighed_pose(const Asked& asked, const PoseSet& set, const std::vector
     return pose;
   };
   TouchPose pose = with(set.fitted);
-  if (!pose.continuum) return pose;
-  TouchPose middle = with(asked.fit.fit(nodes[middle_of(pose, set.mode, nodes)].best));
-  return middle.worst <= 1 ? middle : pose;
+  if (pose.continuum) {
+    TouchPose middle = with(asked.fit.fit(nodes[middle_of(pose, set.mode, nodes)].best));
+    if (middle.worst <= 1) pose = std::move(middle);
+  }
+  if (!asked.free.is_blocked(pose.pose)) return pose;
+  const PosteriorNode* const free = likeliest_free(asked, set.mode, nodes);
+  return free == nullptr ? pose : with(asked.fit.at(free->pose));
 }
 
 void leave_out(const PoseMode& mode, WeighedPoses& result) {

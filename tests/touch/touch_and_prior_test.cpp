@@ -82,6 +82,23 @@ TEST(TouchAndPrior, OnEitherFaceOfAThinPlateAreTwoPoses) {
   EXPECT_NEAR(answer.poses[0].probability, 0.5, 0.02);
 }
 
+TEST(TouchAndPrior, TwiceAtOnePlaceMeasureTwice) {
+  TouchProblem problem = on_the_long_side(0.06, {});
+  problem.touches.push_back(problem.touches.front());
+  const TouchAnswer answer = solve(problem);
+  ASSERT_EQ(answer.verdict_text(), "unique");
+  const double by_touch = 2 / (kTouchSd * kTouchSd), before = 1 / (kPlaceSd * kPlaceSd);
+  EXPECT_NEAR(sd(answer.poses.front(), 1), 1 / std::sqrt(by_touch + before), 1e-3);
+  EXPECT_EQ(answer.poses.front().contacts.size(), 2U);
+}
+
+TEST(TouchAndPrior, LeaveAClearPathFree) {
+  TouchProblem problem = on_the_long_side(0, {});
+  problem.pose->place_sd = 1;
+  problem.clear = {{{50, 0.5}, {53, 0.5}}};  // beside the plate's end, where it is about half of the time
+  for (const TouchPose& pose : solve(problem).poses) EXPECT_LT(pose.pose.x, 0.2);
+}
+
 TEST(TouchAndPrior, OfTheHeadingAloneLeaveThePlaceOpen) {
   TouchProblem problem = on_the_long_side(0, {});
   problem.pose->place_sd = std::numeric_limits<double>::infinity();

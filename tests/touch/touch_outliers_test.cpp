@@ -80,13 +80,13 @@ TEST(TouchOutliers, LeaveThePoseOpenWhereTwoTouchesHardlyFitTogether) {
   EXPECT_NEAR(answer.outlier[0], 0.5 * answer.anywhere, 0.02);  // one of them as likely as the other, hardly ever both
 }
 
-TEST(TouchOutliers, ThatLeaveNoTwoTouchesFitNowhere) {
+TEST(TouchOutliers, LeaveThePoseOpenWhereNoTwoTouchesFit) {
   TouchProblem problem{polygon({{0, 0}, {40, 0}, {40, 20}, {0, 25}}), {{{20, 0}}, {{400, 0}}}};
   problem.noise.emplace();
   problem.noise->position = 0.05;
   problem.robust = true;
   const TouchAnswer answer = solve(problem);
-  EXPECT_EQ(answer.verdict_text(), "inconsistent");
+  EXPECT_EQ(answer.verdict_text(), "unobservable");
   EXPECT_NEAR(answer.anywhere, 1, 1e-9);
 }
 
@@ -109,6 +109,24 @@ TEST(TouchOutliers, BesideARollLeaveThePoseToIt) {
   const double radius = problem({0, 0}).finger->disk()->radius;
   const Vec2 centre = on_part.point + radius * outward(on_part.tangent);
   EXPECT_LT(solve(problem(alone.poses.front().pose.world(centre))).outlier[0], 0.01);
+}
+
+TEST(TouchOutliers, BesideARollLeaveItsPosesToAClearPath) {
+  std::mt19937_64 generator(3);
+  roll_cases::Rolling rolling;
+  rolling.count = 1;
+  rolling.length = 0.05;
+  rolling.contact_sd = rolling.place_sd = 1e-3;
+  rolling.angle_sd = 0.02;
+  const Part part = rollfix::load_part("gallery:spline,n=9,seed=4,wobble=0.25");
+  TouchProblem problem = roll_cases::random_rolls(part, rolling, generator).problem;
+  problem.robust = true;
+  problem.touches = {{{1e3, 0}}};
+  const TouchAnswer before = solve(problem);
+  ASSERT_GT(before.poses.size(), 1U);
+  const Vec2 origin(before.poses[0].pose.x, before.poses[0].pose.y);  // it is inside the part
+  problem.clear = {{origin, origin}};
+  for (const TouchPose& pose : solve(problem).poses) EXPECT_GT((Vec2(pose.pose.x, pose.pose.y) - origin).norm(), 0.3);
 }
 
 TEST(TouchOutliers, GetNoCertificate) { EXPECT_THROW(certify_touches(solve(seven_touches())), rollfix::InputError); }

@@ -123,7 +123,11 @@ std::string poses_table(const Json& document, const std::string& unit) {
 /// Of touches and rolls: what to do next.
 std::string advice_of_touches(const Json& document) {
   const bool has_rolls = !document["rolls"].empty();
-  if (document["samples"] == 1) return "one touch fits every part in any pose: touch the part elsewhere as well\n";
+  const auto is_open = [](const Json& part) {
+    return part["verdict"].get<std::string>().rfind("unobservable", 0) == 0;
+  };
+  if (document["samples"] == 1 && !document["parts"].empty() && is_open(document["parts"][0]))
+    return "one touch fits every part in any pose: touch the part elsewhere as well\n";
   if (!document["undecided"].empty()) {
     return fmt::format("the budget ran out on {}: more {}, or a larger --budget, leave less to look at\n",
                        counted(document["undecided"].size(), "part", "parts"), has_rolls ? "rolls" : "touches");

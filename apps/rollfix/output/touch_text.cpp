@@ -85,6 +85,12 @@ class TouchText {
                    ? "the part looks the same in every heading: only its place is known\n"
                    : "any heading fits: the touches are too close together, or the noise is too large for this part\n";
       case Verdict::undecided:
+        if (answer_.most_outliers) {
+          return fmt::format(
+              "no pose fits all touches but {}, and larger sets of outliers are too many to look at: leave "
+              "out touches that are known to be wrong\n",
+              *answer_.most_outliers);
+        }
         return "the budget ran out: more touches, or a larger --budget, leave less to look at\n";
       case Verdict::inconsistent:
         break;
@@ -367,7 +373,10 @@ class TouchText {
       probable +=
           fmt::format("{}touch {} (probability {})", probable.empty() ? "" : ", ", k + 1, share(answer_.outlier[k]));
     }
-    if (probable.empty()) return fmt::format("robust     any touch may be an outlier; none is: at most {:.1g}\n", most);
+    if (probable.empty()) {
+      return fmt::format("robust     any touch may be an outlier; none seems to be (probability at most {:.1g})\n",
+                         most);
+    }
     return "robust     any touch may be an outlier; most probably " + probable + "\n";
   }
 
@@ -422,7 +431,7 @@ class TouchText {
                           kTouchSigmas);
     } else if (answer_.improbable > 0) {
       text += fmt::format("rejected   {} that fit far worse, together less than {:.1g} % probable\n", rejected,
-                          std::max(1e-4, 110 * answer_.rest));
+                          std::max(1e-4, 110 * (answer_.rest - answer_.anywhere)));
     }
     return text;
   }
