@@ -8,7 +8,6 @@
 
 #include "mistaken_units.hpp"
 #include "other_radius.hpp"
-#include "outlier_sets.hpp"
 #include "rollfix/outline.hpp"
 
 namespace rollfix {
@@ -71,7 +70,8 @@ struct Mistake {
 
 class Mistakes {
  public:
-  explicit Mistakes(const TouchProblem& problem) : problem_(problem) {
+  explicit Mistakes(const TouchProblem& problem) : problem_(problem), may_have_outliers_(problem.robust) {
+    problem_.robust = false;  // of each mistake all touches count
     problem_.budget = std::min(problem.budget.value_or(kMistakeBudget), kMistakeBudget);
     any_normal_ = std::any_of(problem.touches.begin(), problem.touches.end(),
                               [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
@@ -168,7 +168,7 @@ class Mistakes {
 
   /// Where the others can still contradict each other.
   void add_outliers() {
-    if (problem_.touches.size() < 3 || problem_.robust) return;
+    if (problem_.touches.size() < 3 || may_have_outliers_) return;
     for (std::size_t k = 0; k < problem_.touches.size(); ++k) {
       TouchProblem without = problem_;
       without.touches.erase(without.touches.begin() + static_cast<std::ptrdiff_t>(k));
@@ -179,6 +179,7 @@ class Mistakes {
   }
 
   TouchProblem problem_;
+  bool may_have_outliers_;  // then one touch that is wrong is none
   bool any_normal_ = false;
   std::vector<Mistake> mistakes_;
 };
@@ -208,7 +209,7 @@ void add_noise_factor(const TouchProblem& problem, std::vector<TouchDiagnosis>& 
   for (double factor = 2; factor <= kMostNoise; factor *= 2) {
     const TouchProblem without = noisier(problem, factor);
     const TouchAnswer found = solve_plain(without);
-    if (found.status != Status::complete || !found.fit || found.fit->freedom == 0 || has_many_outliers(found)) continue;
+    if (found.status != Status::complete || !found.fit || found.fit->freedom == 0) continue;
     if (found.fit->p < kExplains) continue;
     TouchDiagnosis what{TouchCause::noise};
     what.factor = factor * std::sqrt(found.fit->chi_square / found.fit->freedom);
@@ -243,6 +244,7 @@ std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem) {
   if (problem.touches.size() > kMostTried) return mistakes_of_some(problem);
   TouchProblem cheaper = problem;
   cheaper.budget = std::min(problem.budget.value_or(kNoiseBudget), kNoiseBudget);
+  cheaper.robust = false;
   std::vector<TouchDiagnosis> told;
   for (const Mistake& mistake : Mistakes(problem).all()) {
     const bool is_of_more = mistake.what.cause == TouchCause::clear || mistake.what.cause == TouchCause::pose;
@@ -252,7 +254,7 @@ std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem) {
       told.push_back(mistake.what);
       continue;
     }
-    if (found.status != Status::complete || found.poses.empty() || has_many_outliers(found)) continue;
+    if (found.status != Status::complete || found.poses.empty()) continue;
     if (found.fit && found.fit->p < kExplains) continue;
     TouchDiagnosis what = mistake.what;
     if (found.fit) what.fit = *found.fit;

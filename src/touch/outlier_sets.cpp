@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
-#include <boost/math/special_functions/binomial.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "belief/posterior.hpp"
 #include "measured.hpp"
+#include "outlier_candidates.hpp"
 #include "pose_mixture.hpp"
 
 // Notation:
@@ -30,10 +31,12 @@ namespace {
 // Larger sets are not looked at where all of one size have no more than this share: the next ones have about half its
 // square, ...
 constexpr double kNegligibleSize = 0.03;
-// ... nor where chance makes so many outliers no more often than this, ...
-constexpr double kLeastChance = 1e-4;
-// ... nor beyond so many sets in all: 44 touches, two of which are outliers.
-constexpr double kMostSets = 1000;
+// ... nor where chance makes so many outliers no more often than this.
+constexpr double kLeastChance = 2e-4;
+// So many touches and more leave few enough poses to look only at the sets of outliers that these leave.
+constexpr std::size_t kLeastGroup = 3;
+// From so many on there are too many sets to look at all of them.
+constexpr std::size_t kManyTouches = 20;
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// Probability that at least so many of `all` touches are outliers.
@@ -52,7 +55,7 @@ std::size_t most_outliers(std::size_t touches) {
 }
 
 /// The next choice of as many of `count` things, in the order of their numbers; false after the last one.
-bool choose_next(std::vector<std::size_t>& chosen, std::size_t count) {
+bool choose_next(Outliers& chosen, std::size_t count) {
   for (std::size_t k = chosen.size(); k-- > 0;) {
     if (chosen[k] == count - chosen.size() + k) continue;
     ++chosen[k];
@@ -83,39 +86,40 @@ class OutlierSets {
       : problem_(problem), solve_counted_(solve_counted), answer_(answer), touches_(measured(problem)) {}
 
   void solve() {
-    const std::size_t count = touches_.size();
-    bool is_settled = false;
-    std::size_t size = 0;
-    for (std::size_t left = most_outliers(count) + 1; left > 0 && !is_settled; --left, ++size) {
-      if (looked_at_ +
-              boost::math::binomial_coefficient<double>(static_cast<unsigned>(count), static_cast<unsigned>(size)) >
-          kMostSets) {
-        answer_.most_outliers = size - 1;
-        break;
-      }
-      const double of_size = add_sets(size);
-      if (size == 0 && std::isfinite(log_anywhere_)) return leave_open();
-      is_settled = of_size <= log_total_ + std::log(kNegligibleSize) && leader_fits();
-    }
-    if (answer_.most_outliers && !leader_fits()) leave_undecided();
+    add({});
+    if (std::isfinite(log_anywhere_)) return leave_open();
+    const std::size_t most = most_outliers(touches_.size());
+    const bool are_many = touches_.size() >= kLeastGroup * (most + 1);
+    const bool any_found = are_many && add_candidates(most);
+    if (!any_found && touches_.size() < kManyTouches) add_all(most);
     finish();
   }
 
  private:
-  /// All sets of a size; the logarithm of their weights together.
-  double add_sets(std::size_t size) {
-    std::vector<std::size_t> outliers(size);
-    for (std::size_t k = 0; k < size; ++k) outliers[k] = k;
-    double log_weights = kNone;
-    do {
-      log_weights = log_sum(log_weights, add(outliers));
-    } while (choose_next(outliers, touches_.size()));
-    log_total_ = log_sum(log_total_, log_weights);
-    return log_weights;
+  void add_all(std::size_t most) {
+    for (std::size_t size = 1; size <= most; ++size) {
+      Outliers outliers(size);
+      for (std::size_t k = 0; k < size; ++k) outliers[k] = k;
+      double of_size = kNone;
+      do {
+        of_size = log_sum(of_size, add(outliers));
+      } while (choose_next(outliers, touches_.size()));
+      if (of_size <= log_total_ + std::log(kNegligibleSize) && leader_fits()) return;
+    }
   }
 
-  double add(const std::vector<std::size_t>& outliers) {
-    ++looked_at_;
+  /// False: there are none.
+  bool add_candidates(std::size_t most) {
+    const auto solve_without = [&](const Outliers& outliers) { return without(outliers); };
+    const std::set<Outliers> candidates = outlier_candidates(problem_, answer_.radius, most, solve_without);
+    for (const Outliers& outliers : candidates) {
+      if (!outliers.empty()) add(outliers);
+    }
+    return !candidates.empty();
+  }
+
+  /// Takes what the others say into account; the logarithm of the set's weight.
+  double add(const Outliers& outliers) {
     double log_weight = 0;
     for (const std::size_t k : outliers) {
       log_weight += std::log(belief::kOutlierShare / (1 - belief::kOutlierShare)) +
@@ -129,6 +133,7 @@ class OutlierSets {
     if (outliers.empty()) take_facts(counted);
     take_unresolved(outliers, counted);
     if (!std::isfinite(log_weight)) return kNone;
+    log_total_ = log_sum(log_total_, log_weight);
     log_anywhere_ = is_open ? log_sum(log_anywhere_, log_weight) : log_anywhere_;
     log_outlier_.resize(touches_.size(), kNone);
     for (const std::size_t k : outliers) log_outlier_[k] = log_sum(log_outlier_[k], log_weight);
@@ -144,7 +149,7 @@ class OutlierSets {
   }
 
   /// The answer by all touches but these.
-  TouchAnswer without(const std::vector<std::size_t>& outliers) const {
+  TouchAnswer without(const Outliers& outliers) const {
     TouchProblem counted = problem_;
     counted.touches.clear();
     for (std::size_t k = 0; k < problem_.touches.size(); ++k) {
@@ -162,7 +167,7 @@ class OutlierSets {
   }
 
   /// Of touches that leave the pose open: one, or several at one place, which agree at best.
-  double log_evidence_anywhere(const std::vector<std::size_t>& outliers) const {
+  double log_evidence_anywhere(const Outliers& outliers) const {
     const double perimeter = problem_.part.perimeter();
     double log_evidence = -1.5 * std::log(2 * std::numbers::pi);
     bool has_place = false, has_normal = false;
@@ -198,7 +203,7 @@ class OutlierSets {
   }
 
   /// Arcs that were not decided, of the first set that has some.
-  void take_unresolved(const std::vector<std::size_t>& outliers, const TouchAnswer& counted) {
+  void take_unresolved(const Outliers& outliers, const TouchAnswer& counted) {
     answer_.comparisons += counted.comparisons;
     if (counted.status == Status::complete || !answer_.unresolved.empty()) return;
     answer_.unresolved = counted.unresolved;
@@ -212,13 +217,8 @@ class OutlierSets {
     return std::isfinite(log_leader_) && !answer_.verdict.fits_badly && !(answer_.fit && answer_.fit->is_bad());
   }
 
-  void leave_undecided() {
-    if (!answer_.unresolved.empty()) return;
-    answer_.unresolved = {{0, problem_.part.perimeter()}};
-    answer_.unresolved_touch = 0;
-  }
-
   void finish() {
+    if (!std::isfinite(log_total_)) return;
     answer_.log_evidence = log_total_ + static_cast<double>(touches_.size()) * std::log(1 - belief::kOutlierShare);
     answer_.anywhere = std::exp(log_anywhere_ - log_total_);
     for (const double one : log_outlier_) answer_.outlier.push_back(std::exp(one - log_total_));
@@ -230,7 +230,6 @@ class OutlierSets {
   TouchAnswer& answer_;
   std::vector<Measured> touches_;
   PoseMixture mixture_;
-  double looked_at_ = 0;
   double log_total_ = kNone;
   double log_anywhere_ = kNone;
   double log_leader_ = kNone;

@@ -62,6 +62,21 @@ TEST(TouchOutliers, OfAPartFaceDownAreNamedAsWell) {
   EXPECT_EQ(answer.poses.front().outliers, std::vector<std::size_t>{2});
 }
 
+TEST(TouchOutliers, AmongManyTouchesAreFoundByGroups) {
+  for (const std::size_t count : {12U, 20U, 40U}) {
+    std::mt19937_64 generator(count);
+    Case one =
+        random_case(rollfix::load_part("gallery:spline,n=9,seed=5,wobble=0.2"), {count, 0, 0, 0.006, 0.02}, generator);
+    one.problem.robust = true;
+    std::vector<std::size_t> outliers{1, 4, 5};
+    for (const std::size_t k : outliers) one.problem.touches[k].at += Vec2(uniform(generator, 0.3, 1), 0.5);
+    const TouchAnswer answer = solve(one.problem);
+    ASSERT_EQ(answer.poses.size(), 1U) << count;
+    EXPECT_EQ(answer.poses.front().outliers, outliers);
+    EXPECT_TRUE(in_extent(answer.poses.front(), one.truth));
+  }
+}
+
 TEST(TouchOutliers, ThatAreMoreThanChanceMakesContradictTheNoise) {
   TouchProblem problem = seven_touches();
   for (const std::size_t k : {0U, 2U, 3U}) problem.touches[k].at += Vec2(1.3, 1.1 * (1.0 + static_cast<double>(k)));

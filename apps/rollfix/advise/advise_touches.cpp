@@ -97,8 +97,7 @@ Report advise_touches(const std::vector<std::string>& touches, const RollArgumen
   if (answer.status == Status::complete) {
     next = next_touch(answer, ways);
   } else {
-    next.why = answer.most_outliers ? "too many touches may be outliers: leave out those that are known to be wrong"
-                                    : "the budget ran out: touch once more, or raise --budget";
+    next.why = "the budget ran out: touch once more, or raise --budget";
   }
   report.data = json ? format_next_touch(answer, next)
                      : headline(answer, next) + roll_line(answer, next) +

@@ -85,12 +85,6 @@ class TouchText {
                    ? "the part looks the same in every heading: only its place is known\n"
                    : "any heading fits: the touches are too close together, or the noise is too large for this part\n";
       case Verdict::undecided:
-        if (answer_.most_outliers) {
-          return fmt::format(
-              "no pose fits all touches but {}, and larger sets of outliers are too many to look at: leave "
-              "out touches that are known to be wrong\n",
-              *answer_.most_outliers);
-        }
         return "the budget ran out: more touches, or a larger --budget, leave less to look at\n";
       case Verdict::inconsistent:
         break;
@@ -100,7 +94,8 @@ class TouchText {
 
   /// With outliers.
   std::string open_line() const {
-    return fmt::format("with probability {:.2g} no two touches count: touch once more\n", answer_.anywhere);
+    return fmt::format("with probability {:.2g} no two touches count that are apart: touch once more\n",
+                       answer_.anywhere);
   }
 
   std::string advice_of_rolls() const {
@@ -364,7 +359,7 @@ class TouchText {
 
   /// Of touches that may be outliers: which of them probably are.
   std::string outlier_line() const {
-    if (answer_.outlier.empty()) return "";
+    if (answer_.outlier.empty() || answer_.verdict.name == Verdict::inconsistent) return "";
     std::string probable;
     double most = 0;
     for (std::size_t k = 0; k < answer_.outlier.size(); ++k) {
