@@ -96,7 +96,9 @@ TEST(TouchAndPrior, LeaveAClearPathFree) {
   TouchProblem problem = on_the_long_side(0, {});
   problem.pose->place_sd = 1;
   problem.clear = {{{50, 0.5}, {53, 0.5}}};  // beside the plate's end, where it is about half of the time
-  for (const TouchPose& pose : solve(problem).poses) EXPECT_LT(pose.pose.x, 0.2);
+  const TouchAnswer answer = solve(problem);
+  ASSERT_FALSE(answer.poses.empty());
+  for (const TouchPose& pose : answer.poses) EXPECT_LT(pose.pose.x, 0.2);
 }
 
 TEST(TouchAndPrior, OfTheHeadingAloneLeaveThePlaceOpen) {

@@ -80,7 +80,8 @@ TEST(TouchOutliers, AmongManyTouchesAreFoundByGroups) {
 TEST(TouchOutliers, ThatAreMoreThanChanceMakesContradictTheNoise) {
   TouchProblem problem = seven_touches();
   for (const std::size_t k : {0U, 2U, 3U}) problem.touches[k].at += Vec2(1.3, 1.1 * (1.0 + static_cast<double>(k)));
-  EXPECT_NE(solve(problem).verdict_text(), "unique");
+  const TouchAnswer answer = solve(problem);
+  EXPECT_TRUE(answer.verdict.fits_badly) << answer.verdict_text();
 }
 
 TEST(TouchOutliers, LeaveThePoseOpenWhereTwoTouchesHardlyFitTogether) {
@@ -141,7 +142,9 @@ TEST(TouchOutliers, BesideARollLeaveItsPosesToAClearPath) {
   ASSERT_GT(before.poses.size(), 1U);
   const Vec2 origin(before.poses[0].pose.x, before.poses[0].pose.y);  // it is inside the part
   problem.clear = {{origin, origin}};
-  for (const TouchPose& pose : solve(problem).poses) EXPECT_GT((Vec2(pose.pose.x, pose.pose.y) - origin).norm(), 0.3);
+  const TouchAnswer answer = solve(problem);
+  ASSERT_FALSE(answer.poses.empty());
+  for (const TouchPose& pose : answer.poses) EXPECT_GT((Vec2(pose.pose.x, pose.pose.y) - origin).norm(), 0.3);
 }
 
 TEST(TouchOutliers, GetNoCertificate) { EXPECT_THROW(certify_touches(solve(seven_touches())), rollfix::InputError); }

@@ -126,8 +126,9 @@ std::string advice_of_touches(const Json& document) {
   const auto is_open = [](const Json& part) {
     return part["verdict"].get<std::string>().rfind("unobservable", 0) == 0;
   };
-  if (document["samples"] == 1 && !document["parts"].empty() && is_open(document["parts"][0]))
+  if (document["samples"] == 1 && !document["parts"].empty() && is_open(document["parts"][0])) {
     return "one touch fits every part in any pose: touch the part elsewhere as well\n";
+  }
   if (!document["undecided"].empty()) {
     return fmt::format("the budget ran out on {}: more {}, or a larger --budget, leave less to look at\n",
                        counted(document["undecided"].size(), "part", "parts"), has_rolls ? "rolls" : "touches");
