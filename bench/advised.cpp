@@ -84,7 +84,7 @@ std::optional<double> advised(const Setting& setting, Belief& belief) {
   how.length_share_sd = noise.slip;
   how.reach = &setting.reach;
   if (belief.modes().empty()) return std::nullopt;
-  const Advice advice = advise(setting.part, contenders_of(setting.part, belief.modes()), how);
+  const Advice advice = advise(setting.part, hypotheses_of(setting.part, belief.modes()), how);
   if (!advice.helps) return std::nullopt;
   return advice.advised().length;
 }

@@ -17,9 +17,9 @@ int main() {
   options.turn_sd = 0.05;        // radians: how well a turn will be read
   options.length_sd = 0.02;      // and a length
   options.travel = {-0.5, 0.5};  // the robot's arm gets no farther, back and forth
-  const Advice advice = advise(part, contenders_of(part, answer.placements), options);
+  const Advice advice = advise(part, hypotheses_of(part, answer.placements), options);
 
-  const Prospect& next = advice.advised();
+  const ExpectedGain& next = advice.advised();
   std::printf("roll %s by %.3f: then %.2f places remain on average\n", next.length < 0 ? "back" : "on",
               next.length < 0 ? -next.length : next.length, next.placements);
   std::printf("that gains %.2f of the %.2f bits wanted\n", next.bits, advice.bits_wanted);

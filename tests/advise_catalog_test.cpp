@@ -39,7 +39,7 @@ TEST_F(AdviseCatalog, leaves_one_part_whichever_it_is) {
   EXPECT_LT(next.advice->advised().travel, 1.5 * std::abs(next.advice->advised().length));
   for (const NextRollOfParts::Place& place : next.places) {
     const Part part = catalog_.part(found.parts[place.part].weight.part);
-    const double start = place.contender.place[0] - 0.5;
+    const double start = place.hypothesis.place[0] - 0.5;
     std::vector<double> lengths = {0.5};
     for (int k = 1; k <= 10; ++k) lengths.push_back(0.5 + 0.1 * k * next.advice->advised().length);
     const Identified then = identify(catalog_, {part, roll_on(part, start, lengths)});
@@ -53,7 +53,7 @@ TEST_F(AdviseCatalog, says_what_turn_each_part_would_show) {
   const NextRollOfParts next = next_roll(found);
   for (const NextRollOfParts::Place& place : next.places) {
     const TurningFunction& turning = found.parts[place.part].answer.part.turning();
-    const double from = place.contender.place[0];
+    const double from = place.hypothesis.place[0];
     const double to = from + next.advice->advised().length;
     EXPECT_EQ(place.turn_ahead, turning.angle(to) - turning.angle(from));
   }
@@ -65,15 +65,16 @@ TEST_F(AdviseCatalog, shares_the_probability_among_parts_as_the_noise_says) {
   const Identified found = identify(catalog_, problem);
   const NextRollOfParts next = next_roll(found);
   double of_first = 0;
-  for (const NextRollOfParts::Place& place : next.places) of_first += place.part == 0 ? place.contender.probability : 0;
+  for (const NextRollOfParts::Place& place : next.places)
+    of_first += place.part == 0 ? place.hypothesis.probability : 0;
   EXPECT_NEAR(of_first, found.parts[0].probability, 1e-3);
 }
 
 TEST_F(AdviseCatalog, stays_within_the_travel) {
   const NextRollOfParts next = next_roll(identify(catalog_, short_roll()), Interval{-0.1, 0.3});
-  for (const Prospect& prospect : next.advice->prospects) {
-    EXPECT_GE(prospect.length, -0.1);
-    EXPECT_LE(prospect.length, 0.3);
+  for (const ExpectedGain& gain : next.advice->gains) {
+    EXPECT_GE(gain.length, -0.1);
+    EXPECT_LE(gain.length, 0.3);
   }
 }
 

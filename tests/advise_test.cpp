@@ -16,18 +16,18 @@ namespace advise_test {
 using namespace belief_cases;
 using rollfix::Advice;
 using rollfix::AdviceOptions;
-using rollfix::Contender;
+using rollfix::Hypothesis;
 using rollfix::Interval;
 using testing::HasSubstr;
 
 namespace {
 
-std::vector<Contender> between(std::initializer_list<double> places) {
-  std::vector<Contender> contenders;
+std::vector<Hypothesis> between(std::initializer_list<double> places) {
+  std::vector<Hypothesis> hypotheses;
   for (const double place : places) {
-    contenders.push_back({place, 0, 1.0 / static_cast<double>(places.size()), contenders.size()});
+    hypotheses.push_back({place, 0, 1.0 / static_cast<double>(places.size()), hypotheses.size()});
   }
-  return contenders;
+  return hypotheses;
 }
 
 /// A disk's centre, seen from the part.
@@ -48,28 +48,28 @@ TEST(Advise, places_that_look_alike_forever_can_not_be_told_apart) {
 TEST(Advise, the_roll_is_just_long_enough_for_the_first_difference) {
   // A stadium's straight side is 2 long: half a unit from its end and a unit from it look alike until the end is there.
   const Part part = part_of("stadium,length=2,r=0.5");
-  const std::vector<Contender> contenders = between({part.perimeter() - 0.5, part.perimeter() - 1.0});
-  const Advice advice = advise(part, contenders);
+  const std::vector<Hypothesis> hypotheses = between({part.perimeter() - 0.5, part.perimeter() - 1.0});
+  const Advice advice = advise(part, hypotheses);
   ASSERT_TRUE(advice.helps);
-  const auto turn = [&](const Contender& c) {
+  const auto turn = [&](const Hypothesis& c) {
     return part.turning().angle(c.place[0] + advice.advised().length) - part.turning().angle(c.place[0]);
   };
-  EXPECT_GT(std::abs(turn(contenders[0]) - turn(contenders[1])), 1e-5);
+  EXPECT_GT(std::abs(turn(hypotheses[0]) - turn(hypotheses[1])), 1e-5);
   EXPECT_NEAR(advice.advised().bits, 1, 0.03);
   EXPECT_NEAR(advice.advised().placements, 1, 0.03);
 }
 
 /// On a straight side of a stadium, from 0 to 2: so far from its end, forward, and as probable as said.
-std::vector<Contender> before_the_end(const std::vector<std::pair<double, double>>& all) {
-  std::vector<Contender> contenders;
+std::vector<Hypothesis> before_the_end(const std::vector<std::pair<double, double>>& all) {
+  std::vector<Hypothesis> hypotheses;
   for (const auto& [before, probability] : all) {
-    contenders.push_back({2 - before, 0, probability, contenders.size()});
+    hypotheses.push_back({2 - before, 0, probability, hypotheses.size()});
   }
-  return contenders;
+  return hypotheses;
 }
 
-const rollfix::Prospect& near(const Advice& advice, double length) {
-  return *std::min_element(advice.prospects.begin(), advice.prospects.end(), [&](const auto& a, const auto& b) {
+const rollfix::ExpectedGain& near(const Advice& advice, double length) {
+  return *std::min_element(advice.gains.begin(), advice.gains.end(), [&](const auto& a, const auto& b) {
     return std::abs(a.length - length) < std::abs(b.length - length);
   });
 }
@@ -98,9 +98,9 @@ TEST(Advise, what_is_most_likely_enough_is_rolled_before_what_surely_is) {
 
 TEST(Advise, one_wide_place_does_not_make_the_roll_longer_that_tells_it_from_another) {
   const Part part = part_of("stadium,length=2,r=0.5");
-  std::vector<Contender> contenders = before_the_end({{0.2, 0.25}, {1.2, 0.25}, {1.25, 0.25}, {1.3, 0.25}});
-  for (std::size_t k = 2; k < 4; ++k) contenders[k].label = 1;
-  const Advice advice = advise(part, contenders);
+  std::vector<Hypothesis> hypotheses = before_the_end({{0.2, 0.25}, {1.2, 0.25}, {1.25, 0.25}, {1.3, 0.25}});
+  for (std::size_t k = 2; k < 4; ++k) hypotheses[k].label = 1;
+  const Advice advice = advise(part, hypotheses);
   EXPECT_NEAR(advice.advised().length, 0.2, part.perimeter() / 400);
   EXPECT_NEAR(advice.advised().travel, 0.2, part.perimeter() / 400);
 }
@@ -110,11 +110,11 @@ TEST(Advise, it_stays_within_the_travel) {
   AdviceOptions options;
   options.travel = Interval{-0.2, 0.3};
   const Advice advice = advise(part, between({1, 3}), options);
-  EXPECT_DOUBLE_EQ(advice.prospects.front().length, -0.2);
-  EXPECT_DOUBLE_EQ(advice.prospects.back().length, 0.3);
+  EXPECT_DOUBLE_EQ(advice.gains.front().length, -0.2);
+  EXPECT_DOUBLE_EQ(advice.gains.back().length, 0.3);
 }
 
-TEST(Advise, it_takes_no_contender_out_of_reach) {
+TEST(Advise, it_takes_no_hypothesis_out_of_reach) {
   const Part part = part_of("limacon,a=1.5,b=1");
   const rollfix::Reach reach = rollfix::reach_of_disk(part, 3);
   ASSERT_FALSE(reach.is_whole());
@@ -122,9 +122,9 @@ TEST(Advise, it_takes_no_contender_out_of_reach) {
   options.reach = &reach;
   const double place = reach.arcs.front().lo + 0.1;
   const Advice advice = advise(part, between({place, place + 0.3}), options);
-  EXPECT_GE(advice.prospects.front().length, -0.11);
+  EXPECT_GE(advice.gains.front().length, -0.11);
   const double last = reach.arcs.front().hi - 0.1;
-  EXPECT_LE(advise(part, between({last - 0.3, last}), options).prospects.back().length, 0.11);
+  EXPECT_LE(advise(part, between({last - 0.3, last}), options).gains.back().length, 0.11);
 }
 
 TEST(Advise, what_a_roll_tells_is_less_the_worse_turn_length_and_place_are_known) {
@@ -133,7 +133,7 @@ TEST(Advise, what_a_roll_tells_is_less_the_worse_turn_length_and_place_are_known
   const auto told = [&](const AdviceOptions& options, double sd) {
     AdviceOptions near = options;
     near.travel = Interval{0, x};
-    return advise(part, {{1, sd, 0.5, 0}, {2.5, 2 * sd, 0.5, 1}}, near).prospects.back().bits;
+    return advise(part, {{1, sd, 0.5, 0}, {2.5, 2 * sd, 0.5, 1}}, near).gains.back().bits;
   };
   // Of two places as likely: what is left of the wrong one where their turns differ by so many standard deviations.
   const auto expected = [&](const AdviceOptions& options, double sd) {
@@ -164,16 +164,16 @@ TEST(Advise, it_stays_on_an_open_part) {
   const Part part = part_of("exponential");
   const double P = part.perimeter();
   const Advice advice = advise(part, between({0.2 * P, 0.5 * P}));
-  EXPECT_NEAR(advice.prospects.front().length, -0.2 * P, 1e-9);
-  EXPECT_NEAR(advice.prospects.back().length, 0.5 * P, 1e-9);
+  EXPECT_NEAR(advice.gains.front().length, -0.2 * P, 1e-9);
+  EXPECT_NEAR(advice.gains.back().length, 0.5 * P, 1e-9);
 }
 
 TEST(Advise, longer_rolls_are_never_expected_to_tell_less_of_even_odds) {
   const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
   const Advice advice = advise(part, between({1, 4}));
-  for (std::size_t k = 1; k < advice.prospects.size(); ++k) {
-    const rollfix::Prospect& near = advice.prospects[k - 1];
-    const rollfix::Prospect& far = advice.prospects[k];
+  for (std::size_t k = 1; k < advice.gains.size(); ++k) {
+    const rollfix::ExpectedGain& near = advice.gains[k - 1];
+    const rollfix::ExpectedGain& far = advice.gains[k];
     if (near.length >= 0) {
       EXPECT_GE(far.bits, near.bits - 1e-9);
     } else if (far.length <= 0) {
@@ -182,7 +182,7 @@ TEST(Advise, longer_rolls_are_never_expected_to_tell_less_of_even_odds) {
   }
 }
 
-TEST(Advise, without_contenders_there_is_nothing_to_advise) {
+TEST(Advise, without_hypotheses_there_is_nothing_to_advise) {
   EXPECT_THROW(advise(part_of("cam"), {}), rollfix::InputError);
   AdviceOptions options;
   options.travel = Interval{0.1, 0.2};
@@ -195,7 +195,7 @@ TEST(FirstRoll, of_one_finger_tells_places_apart_that_bend_differently) {
   const rollfix::NextRoll next = rollfix::next_roll(
       rollfix::before_contact(part_of("cam"), {rollfix::disk(0.2)}, rollfix::Noise{.contact = 0.005, .angle = 0.003}));
   ASSERT_TRUE(next.helps());
-  EXPECT_EQ(next.contenders.size(), 90U);
+  EXPECT_EQ(next.hypotheses.size(), 90U);
   EXPECT_LT(next.advice->advised().placements, 40);
   EXPECT_NE(next.advice->advised().length, 0);
 }
@@ -211,8 +211,8 @@ TEST(FirstRoll, of_two_fingers_starts_where_both_can_be_apart) {
   const rollfix::NextRoll next =
       rollfix::next_roll(rollfix::before_contact(part, {rollfix::disk(0.6), rollfix::disk(0.3)}));
   ASSERT_TRUE(next.helps());
-  EXPECT_LT(next.contenders.size(), 81U);
-  for (const Contender& one : next.contenders) {
+  EXPECT_LT(next.hypotheses.size(), 81U);
+  for (const Hypothesis& one : next.hypotheses) {
     EXPECT_GE((centre(part, one.place[0], 0.6) - centre(part, one.place[1], 0.3)).norm(), 0.9 - 1e-9);
   }
 }

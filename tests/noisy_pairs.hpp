@@ -59,7 +59,7 @@ inline Case noisy_case(const Part& part, const std::array<double, 2>& start, dou
 }
 
 inline Belief belief_of(const Part& part, const Case& drawn, const BeliefOptions& options) {
-  rollfix::Contacts contacts;
+  rollfix::FingerGeometry contacts;
   contacts.finger_curvature = {1 / drawn.fingers[0].radius, 1 / drawn.fingers[1].radius};
   contacts.facing = rollfix::facing(drawn.log, drawn.pair());
   Belief belief(part, rollfix::LogKind::contact, options, contacts);

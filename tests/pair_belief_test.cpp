@@ -29,7 +29,7 @@ using rollfix::LogKind;
 using rollfix::Prior;
 
 /// Of which nothing is known.
-const rollfix::Contacts kTwoFingers{{0.0, 0.0}, {}};
+const rollfix::FingerGeometry kTwoFingers{{0.0, 0.0}, {}};
 
 TEST(PairBelief, takes_both_halves_of_a_symmetric_part_as_equally_probable) {
   const Part part = part_of("ellipse");
@@ -126,7 +126,7 @@ TEST(PairBelief, needs_no_facing) {
   Calibration all;
   for (int k = 0; k < test_count(25); ++k) {
     const Case drawn = random_pair(part, 100, options.noise, generator);
-    rollfix::Contacts contacts;
+    rollfix::FingerGeometry contacts;
     contacts.finger_curvature = {1 / drawn.fingers[0].radius, 1 / drawn.fingers[1].radius};
     Belief belief(part, LogKind::contact, options, contacts);
     for (const Reading& row : rollfix::readings_as_given(drawn.log, drawn.pair())) belief.add(row);

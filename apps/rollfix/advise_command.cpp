@@ -50,7 +50,7 @@ Which part is it? Of a catalog, what tells apart the parts that remain:
 )";
 
 // Placements in the table.
-constexpr std::size_t kMostContenders = 20;
+constexpr std::size_t kMostHypotheses = 20;
 
 struct AdviseArguments {
   RollArguments roll;
@@ -79,7 +79,7 @@ std::string headline(const std::string& verdict, const std::optional<Advice>& ad
                      const Part& part) {
   if (!advice) return fmt::format("{}: {}", verdict, why);
   if (!advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, why);
-  const Prospect& advised = advice->advised();
+  const ExpectedGain& advised = advice->advised();
   const int decimals = decimals_for(part.perimeter());
   return fmt::format(
       "{}: {}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained; travel to expect until they are "
@@ -88,24 +88,24 @@ std::string headline(const std::string& verdict, const std::optional<Advice>& ad
       fixed(advised.travel, decimals), behind(part.unit()));
 }
 
-/// What the contenders of one placement have in common.
+/// What the hypotheses of one placement have in common.
 struct Expected {
   PerFinger<double> first;  // contacts
   PerFinger<double> last;
   double probability = 0;
   Interval turn{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
-  void add(const Contender& contender, double turn_ahead) {
-    if (probability == 0) first = contender.place;
-    last = contender.place;
-    probability += contender.probability;
+  void add(const Hypothesis& hypothesis, double turn_ahead) {
+    if (probability == 0) first = hypothesis.place;
+    last = hypothesis.place;
+    probability += hypothesis.probability;
     turn = {std::min(turn.lo, turn_ahead), std::max(turn.hi, turn_ahead)};
   }
 };
 
 std::string span_of(const std::string& lo, const std::string& hi) { return lo == hi ? lo : lo + " to " + hi; }
 
-/// A row of the table: of a placement, which may be several contenders where it is wide.
+/// A row of the table: of a placement, which may be several hypotheses where it is wide.
 struct Row {
   std::string name;
   Expected expected;
@@ -121,7 +121,7 @@ std::string table_of(const std::string& first, const std::vector<Row>& rows, con
     table.add_column(title_in(title, part.unit()));
   }
   for (const char* title : {"probability", "turn to expect [deg]"}) table.add_column(title);
-  for (std::size_t k = 0; k < std::min(rows.size(), kMostContenders); ++k) {
+  for (std::size_t k = 0; k < std::min(rows.size(), kMostHypotheses); ++k) {
     const Expected& row = rows[k].expected;
     std::vector<std::string> cells{rows[k].name};
     for (std::size_t finger = 0; finger < fingers; ++finger) {
@@ -132,8 +132,8 @@ std::string table_of(const std::string& first, const std::vector<Row>& rows, con
     table.add_row(std::move(cells));
   }
   std::string text = "\n" + table.str();
-  if (rows.size() > kMostContenders)
-    text += fmt::format("... and {} more; --json lists them all\n", rows.size() - kMostContenders);
+  if (rows.size() > kMostHypotheses)
+    text += fmt::format("... and {} more; --json lists them all\n", rows.size() - kMostHypotheses);
   return text;
 }
 
@@ -142,10 +142,10 @@ std::string advise_text(const NextRoll& outcome) {
   std::string text = headline(outcome.answer.verdict.text(), outcome.advice, outcome.why, part) + "\n";
   if (!outcome.helps()) return text;
   std::vector<Row> rows;
-  for (const Contender& contender : outcome.contenders) {
-    const std::string name = fmt::format("{}{}", contender.place.size() == 1 ? "a" : "", contender.label);
+  for (const Hypothesis& hypothesis : outcome.hypotheses) {
+    const std::string name = fmt::format("{}{}", hypothesis.place.size() == 1 ? "a" : "", hypothesis.label);
     if (rows.empty() || rows.back().name != name) rows.push_back({name, {}});
-    rows.back().expected.add(contender, outcome.turn_ahead(contender));
+    rows.back().expected.add(hypothesis, outcome.turn_ahead(hypothesis));
   }
   return text + table_of("", rows, part);
 }
@@ -157,9 +157,9 @@ std::string advise_text(const Catalog& catalog, const Identified& found, const N
   std::vector<Row> rows;
   std::optional<std::size_t> last;
   for (const NextRollOfParts::Place& place : next.places) {
-    if (last != place.contender.label) rows.push_back({catalog.entry(found.parts[place.part].weight.part).name, {}});
-    last = place.contender.label;
-    rows.back().expected.add(place.contender, place.turn_ahead);
+    if (last != place.hypothesis.label) rows.push_back({catalog.entry(found.parts[place.part].weight.part).name, {}});
+    last = place.hypothesis.label;
+    rows.back().expected.add(place.hypothesis, place.turn_ahead);
   }
   return text + table_of("part", rows, any_part);
 }
@@ -170,11 +170,11 @@ std::string first_roll_text(const NextRoll& outcome) {
   const std::string fingers = outcome.answer.finger_count() == 1 ? "places" : "pairs of places";
   if (!outcome.helps())
     return fmt::format("nothing is known yet, and no roll will tell {} apart: {}\n", fingers, outcome.why);
-  const Prospect& advised = outcome.advice->advised();
+  const ExpectedGain& advised = outcome.advice->advised();
   return fmt::format(
       "nothing is known yet: {}: of {} {} all over the boundary {:.2f} are expected to remain, {:.2f} of {:.2f} bits "
       "gained; travel to expect until they are told apart: {}{}\n",
-      roll_text(outcome.advice->lengths(), part), outcome.contenders.size(), fingers, advised.placements, advised.bits,
+      roll_text(outcome.advice->lengths(), part), outcome.hypotheses.size(), fingers, advised.placements, advised.bits,
       outcome.advice->bits_wanted, fixed(advised.travel, decimals_for(part.perimeter())), behind(part.unit()));
 }
 

@@ -19,28 +19,28 @@
 namespace rollfix {
 
 /// A place where the contact may be now; of two fingers a pair of places.
-struct Contender {
+struct Hypothesis {
   PerFinger<double> place;  // s of the contacts now, in [0, P)
-  PerFinger<double> sd;     // how well that is known, given this contender, length
-  double probability = 0;   // of all contenders together 1
+  PerFinger<double> sd;     // how well that is known, given this hypothesis, length
+  double probability = 0;   // of all hypotheses together 1
   std::size_t label = 0;    // those of one placement, such as a stretch, have the same
   double covariance = 0;    // of two fingers' places, length^2
 };
 
-/// The contenders that a search leaves: with noise as probable as the samples say, else all placements alike; of a wide
+/// The hypotheses that a search leaves: with noise as probable as the samples say, else all placements alike; of a wide
 /// one several, but of two fingers without noise the one pair that is listed.
-std::vector<Contender> contenders_of(const Part& part, const std::vector<Placement>& placements);
+std::vector<Hypothesis> hypotheses_of(const Part& part, const std::vector<Placement>& placements);
 /// The same of a posterior's modes.
-std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes);
+std::vector<Hypothesis> hypotheses_of(const Part& part, const std::vector<Mode>& modes);
 
 /// The same where it is not known which part it is.
-struct PartContender {
+struct PartHypothesis {
   const Part* part = nullptr;     // not owned
   PerFinger<const Reach*> reach;  // where each finger can touch it; not owned; nullptr: anywhere
-  Contender contender;
+  Hypothesis hypothesis;
 };
 
-/// What a contender would measure after a roll, and how far that may be off.
+/// What a hypothesis would measure after a roll, and how far that may be off.
 struct Foreseen {
   double value = 0;
   double variance = 0;
@@ -54,71 +54,71 @@ struct AdviceOptions {
   PerFinger<const Reach*> reach{nullptr};  // where each can touch; not owned
   double rows = 1;  // that are read at about the same place, over which the errors of turn_sd and length_sd average out
   std::optional<PerFinger<double>> disks{};  // radii of two disks that must not overlap; none: they may
-  /// Whether the robot can roll by these lengths from a contender's places; none: it can do any roll. A roll is advised
-  /// that it can do from every contender that counts.
-  std::function<bool(const PartContender&, const PerFinger<double>&)> can_roll{};
+  /// Whether the robot can roll by these lengths from a hypothesis's places; none: it can do any roll. A roll is
+  /// advised that it can do from every hypothesis that counts.
+  std::function<bool(const PartHypothesis&, const PerFinger<double>&)> can_roll{};
   /// Other motions than rolls: what is measured of them in place of turns, and the ways on which to go, each so far
   /// back and forward; of two numbers each. The other options say nothing then.
-  std::function<Foreseen(const PartContender&, const PerFinger<double>&)> foresees{};
+  std::function<Foreseen(const PartHypothesis&, const PerFinger<double>&)> foresees{};
   std::vector<std::pair<PerFinger<double>, Interval>> ways{};
 };
 
 /// What is to be expected of a roll.
-struct Prospect {
+struct ExpectedGain {
   double length = 0;      // from where the contact is now, positive along the stored outline; of two: see Advice::way
-  double placements = 0;  // that remain, on average over the contenders
+  double placements = 0;  // that remain, on average over the hypotheses
   double bits = 0;        // information gained, on average
   double travel = 0;      // with this roll and those after it, on average, until what can be told apart is
 };
 
-/// Which roll tells the contenders apart.
+/// Which roll tells the hypotheses apart.
 struct Advice {
-  std::vector<Prospect> prospects;  // of all lengths that were looked at on the advised way, in order; 0 is among them
+  std::vector<ExpectedGain> gains;  // of all lengths that were looked at on the advised way, in order; 0 is among them
   std::size_t best = 0;             // index of the advised one
   double bits_wanted = 0;           // what it would take to tell them all apart
   bool helps = false;               // false: no roll within the travel will
-  PerFinger<double> way = 1.0;      // of two fingers: each rolls this many times Prospect::length, one of them 1 times
+  PerFinger<double> way = 1.0;  // of two fingers: each rolls this many times ExpectedGain::length, one of them 1 times
 
-  const Prospect& advised() const { return prospects[best]; }
+  const ExpectedGain& advised() const { return gains[best]; }
   /// By how far each finger rolls on.
   PerFinger<double> lengths() const { return lengths(advised()); }
-  PerFinger<double> lengths(const Prospect& prospect) const {
+  PerFinger<double> lengths(const ExpectedGain& gain) const {
     PerFinger<double> each = way;
-    for (double& length : each) length = length * prospect.length + 0.0;  // who stays goes by 0 and not by -0
+    for (double& length : each) length = length * gain.length + 0.0;  // who stays goes by 0 and not by -0
     return each;
   }
 };
 
-/// How far a measured turn changes while the fingers roll on by these lengths from a contender's places, radians: of
+/// How far a measured turn changes while the fingers roll on by these lengths from a hypothesis's places, radians: of
 /// two that of finger a less that of finger b.
-double turn_ahead(const Part& part, const Contender& contender, const PerFinger<double>& lengths);
+double turn_ahead(const Part& part, const Hypothesis& hypothesis, const PerFinger<double>& lengths);
 
 /// Looks at rolls forward and back; of two fingers at ways on which one finger rolls alone, or both equally far or one
-/// half as far as the other, in the same or in opposite directions. While a finger rolls over x, contender i reads the
-/// turn Theta(p_i + x) - Theta(p_i), and of two fingers the difference of both; two contenders are told apart by the
+/// half as far as the other, in the same or in opposite directions. While a finger rolls over x, hypothesis i reads the
+/// turn Theta(p_i + x) - Theta(p_i), and of two fingers the difference of both; two hypotheses are told apart by the
 /// instant at which their turns differ most, in standard deviations d: what was as probable is then exp(d^2 / 2) times
 /// less so, and told apart from the true one where less than 1 % of it is left. The advised roll is the one after which
 /// the least travel is to be expected, itself included, until all places are told apart that can be; the fingers then
 /// roll on or back on the same way. What this way does not tell and another one does counts with the travel there. A
 /// roll counts as 1 % of the perimeter more, as it takes time to stop and start again. Where no two can be told apart,
-/// the advised roll is the shortest one that gains nearly as much as the best. A roll that would take a contender that
-/// counts out of a finger's reach, or one disk into the other, is not looked at. Throws InputError: no contenders, of
+/// the advised roll is the shortest one that gains nearly as much as the best. A roll that would take a hypothesis that
+/// counts out of a finger's reach, or one disk into the other, is not looked at. Throws InputError: no hypotheses, of
 /// one finger and of two, a standard deviation that is not above 0, or a travel that does not hold 0.
-Advice advise(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options = {});
-/// The same of contenders on several parts, each with a reach of its own. No travel: one lap of the shortest part.
-Advice advise(const std::vector<PartContender>& contenders, const AdviceOptions& options = {});
+Advice advise(const Part& part, const std::vector<Hypothesis>& hypotheses, const AdviceOptions& options = {});
+/// The same of hypotheses on several parts, each with a reach of its own. No travel: one lap of the shortest part.
+Advice advise(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options = {});
 
 /// What was found so far, and which roll tells apart what remains.
 struct NextRoll {
   Answer answer;
-  std::vector<Contender> contenders;  // where the contact may be now
-  std::optional<Advice> advice{};     // none where there is nothing to tell apart
-  std::string why{};                  // where there is none, or no roll helps: why, in words; else empty
+  std::vector<Hypothesis> hypotheses;  // where the contact may be now
+  std::optional<Advice> advice{};      // none where there is nothing to tell apart
+  std::string why{};                   // where there is none, or no roll helps: why, in words; else empty
 
   bool helps() const { return advice && advice->helps; }
   /// How far the tangent turns along the advised roll if this is the place, radians; of two fingers the difference of
   /// both, a's less b's. REQUIRES helps().
-  double turn_ahead(const Contender& contender) const;
+  double turn_ahead(const Hypothesis& hypothesis) const;
 };
 
 /// What is known before any contact, for next_roll to say which roll tells most at first: places spread evenly over the
@@ -173,7 +173,7 @@ struct ExpectedTouch {
 };
 
 /// What is to be expected of an approach.
-struct TouchProspect {
+struct TouchGain {
   Approach approach;
   double poses = 0;    // that remain, on average
   double bits = 0;     // information gained, on average
@@ -181,22 +181,22 @@ struct TouchProspect {
 };
 
 /// A roll from the last touch, and the information that it gains on average.
-struct RollProspect {
+struct RollGain {
   double length = 0;  // of the contact's way, positive along the stored outline
   double bits = 0;
 };
 
 /// Which approach tells the poses apart.
 struct NextTouch {
-  std::vector<TouchProspect> prospects;  // as the approaches were given; of the less promising ones an upper bound
-  std::size_t best = 0;                  // of them
-  std::vector<ExpectedTouch> expected;   // of the best approach, in each pose
-  std::optional<RollProspect> roll{};    // instead: the shortest that gains about most; none: see `next_touch`
-  double bits_wanted = 0;                // what it takes to tell all of them apart
-  bool helps = false;                    // false: no approach does
-  std::string why{};                     // if none helps, in words; else empty
+  std::vector<TouchGain> gains;         // as the approaches were given; of the less promising ones an upper bound
+  std::size_t best = 0;                 // of them
+  std::vector<ExpectedTouch> expected;  // of the best approach, in each pose
+  std::optional<RollGain> roll{};       // instead: the shortest that gains about most; none: see `next_touch`
+  double bits_wanted = 0;               // what it takes to tell all of them apart
+  bool helps = false;                   // false: no approach does
+  std::string why{};                    // if none helps, in words; else empty
 
-  const TouchProspect& advised() const { return prospects[best]; }
+  const TouchGain& advised() const { return gains[best]; }
 };
 
 /// Looks at each approach in each pose of an answer: two poses are told apart by where the finger would touch, by the
@@ -210,8 +210,8 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
 
 /// How the pin of a wheel without skin moves next, against the jaw beside it, to tell apart where both can be.
 struct NextPin {
-  std::vector<Contender> contenders{};  // where jaw and wheel touch now, the most probable first, up to kMostPinPlaces
-  std::vector<double> travels{};        // of each: how far the jaw's contact travels then, along the stored outline
+  std::vector<Hypothesis> hypotheses{};  // where jaw and wheel touch now, the most probable first, up to kMostPinPlaces
+  std::vector<double> travels{};         // of each: how far the jaw's contact travels then, along the stored outline
   /// Its lengths are the pin's: in the jaw's frame, along its surface and away from it. None where there is nothing to
   /// tell apart.
   std::optional<Advice> advice{};

@@ -53,7 +53,7 @@ struct BeliefOptions {
 };
 
 /// What is known of the fingers, one or two.
-struct Contacts {
+struct FingerGeometry {
   PerFinger<double> finger_curvature;  // at the first contact: 1/r of a disk; 0 of a jaw, or where it is not known
   std::optional<double> facing{};      // of two: (u + psi)_a - (u + psi)_b at the first contacts, radians
   std::vector<Finger> fingers{};       // none: not known, and centres say nothing; one serves both of two
@@ -221,7 +221,7 @@ class Belief {
   /// `kind`: of the log that the samples come from: increments gather errors as they are summed. `contacts`: of one
   /// finger or two; of one finger every sample tells its own curvature. Throws InputError: noise that is not valid (no
   /// length or no angle may be free of error altogether), a prior or a facing that is not.
-  Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts = {});
+  Belief(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts = {});
   ~Belief();
   Belief(Belief&&) noexcept;
   Belief& operator=(Belief&&) noexcept;

@@ -241,7 +241,7 @@ IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, 
 struct NextRollOfParts {
   struct Place {
     std::size_t part = 0;   // its place in Identified::parts
-    Contender contender;    // `probability`: of this part and this place; `label`: of all parts' places its own
+    Hypothesis hypothesis;  // `probability`: of this part and this place; `label`: of all parts' places its own
     double turn_ahead = 0;  // along the advised roll if this is the place, radians; 0: none is advised
   };
   std::vector<Place> places;
@@ -266,7 +266,7 @@ std::string format_identified(const Catalog& catalog, const Identified& found, L
 /// "rollfix/identify/1" of touches.
 std::string format_identified(const Catalog& catalog, const IdentifiedByTouches& found, Layout layout = Layout::lines);
 
-/// {"schema": "rollfix/advise/1", ...}, as of one part, with each contender's part.
+/// {"schema": "rollfix/advise/1", ...}, as of one part, with each hypothesis's part.
 std::string format_next_roll(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,
                              Layout layout = Layout::lines);
 

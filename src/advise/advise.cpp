@@ -14,7 +14,7 @@
 #include "rollfix/error.hpp"
 
 // Notation, as in docs/belief.md, "The next roll":
-//   contender i     the place p_i where the contact may be, of two fingers the pair of places
+//   hypothesis i     the place p_i where the contact may be, of two fingers the pair of places
 //   way             how far each finger rolls while the roll's length x grows: one finger has one, two have eight
 //   told            after which travel j is told from i, if i is the true one
 // Each way is looked at as if the fingers could only go on or back on it; what another way tells and this one does not
@@ -30,7 +30,7 @@ using belief::Way;
 // Lengths that are looked at, forward and back, and on each of two fingers' ways.
 constexpr std::size_t kSteps = 400;
 constexpr std::size_t kStepsOfTwo = 200;
-// Of two fingers, so many contenders are compared, the likeliest: the time grows with their square.
+// Of two fingers, so many hypotheses are compared, the likeliest: the time grows with their square.
 constexpr std::size_t kMostPairs = 200;
 // A roll counts as this much travel more, a share of the perimeter: to stop, to locate and to start again is not free.
 constexpr double kOneRoll = 0.01;
@@ -47,10 +47,10 @@ constexpr std::size_t kMostCuts = 24;
 // A roll that gains less than this share of the bits wanted is no help.
 constexpr double kHelp = 0.05;
 
-void require_valid(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
-  if (contenders.empty()) throw InputError("advise: expected at least one place where the contact may be, found none");
-  for (const PartContender& one : contenders) {
-    if (one.contender.place.size() == contenders.front().contender.place.size()) continue;
+void require_valid(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
+  if (hypotheses.empty()) throw InputError("advise: expected at least one place where the contact may be, found none");
+  for (const PartHypothesis& one : hypotheses) {
+    if (one.hypothesis.place.size() == hypotheses.front().hypothesis.place.size()) continue;
     throw InputError("advise: expected places of one finger, or pairs of places of two, found both");
   }
   if (!(options.turn_sd > 0)) {
@@ -66,33 +66,33 @@ void require_valid(const std::vector<PartContender>& contenders, const AdviceOpt
   }
 }
 
-bool is_better(const Prospect& one, const Prospect& other) {
+bool is_better(const ExpectedGain& one, const ExpectedGain& other) {
   if (one.placements != other.placements) return one.placements < other.placements;
   return one.bits > other.bits;
 }
 
 /// A way with all that is to be expected on it.
 struct Trial {
-  Trial(const std::vector<PartContender>& contenders, const AdviceOptions& options, const Way& on)
-      : way(on), back(contenders, options, on.direction), forward(contenders, options, on.direction) {
+  Trial(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options, const Way& on)
+      : way(on), back(hypotheses, options, on.direction), forward(hypotheses, options, on.direction) {
     const std::size_t steps = on.direction.size() == 1 ? kSteps : kStepsOfTwo;
     const auto part_of = [&](double whole, std::size_t k) {
       return whole * static_cast<double>(k) / static_cast<double>(steps);
     };
     for (std::size_t k = 1; k <= steps && way.travel.lo < 0; ++k) {
-      prospects.push_back(back.roll_to(part_of(way.travel.lo, k)));
+      gains.push_back(back.roll_to(part_of(way.travel.lo, k)));
     }
-    std::reverse(prospects.begin(), prospects.end());
-    here = prospects.size();
+    std::reverse(gains.begin(), gains.end());
+    here = gains.size();
     for (std::size_t k = 0; k <= steps && (k == 0 || way.travel.hi > 0); ++k) {
-      prospects.push_back(forward.roll_to(part_of(way.travel.hi, k)));
+      gains.push_back(forward.roll_to(part_of(way.travel.hi, k)));
     }
-    most = prospects[here];
-    for (const Prospect& prospect : prospects) {
-      if (is_better(prospect, most)) most = prospect;
+    most = gains[here];
+    for (const ExpectedGain& gain : gains) {
+      if (is_better(gain, most)) most = gain;
     }
-    to_go = std::make_unique<Travel>(contenders, back, forward);
-    for (Prospect& prospect : prospects) prospect.travel = to_go->after(prospect.length);
+    to_go = std::make_unique<Travel>(hypotheses, back, forward);
+    for (ExpectedGain& gain : gains) gain.travel = to_go->after(gain.length);
   }
 
   /// After which travel one way or the other j is told from i, for sure (`how` 0) or in part (1).
@@ -103,9 +103,9 @@ struct Trial {
   Way way;
   Comparison back;
   Comparison forward;
-  std::vector<Prospect> prospects;
+  std::vector<ExpectedGain> gains;
   std::size_t here = 0;  // index of the roll of length 0
-  Prospect most;         // the one that tells most
+  ExpectedGain most;     // the one that tells most
   std::unique_ptr<Travel> to_go;
 };
 
@@ -118,14 +118,14 @@ struct Choice {
 /// The roll after which, itself included, the least travel is to be expected, of those that may be enough.
 Choice least_travel(const Trial& trial, double one_roll) {
   std::vector<double> open;
-  for (const Prospect& prospect : trial.prospects) open.push_back(trial.to_go->open_after(prospect.length));
+  for (const ExpectedGain& gain : trial.gains) open.push_back(trial.to_go->open_after(gain.length));
   const double least_open = *std::min_element(open.begin(), open.end());
   Choice choice;
-  for (std::size_t k = 0; k < trial.prospects.size(); ++k) {
-    const Prospect& prospect = trial.prospects[k];
-    const double cost = prospect.travel + one_roll * (1 + open[k]);
+  for (std::size_t k = 0; k < trial.gains.size(); ++k) {
+    const ExpectedGain& gain = trial.gains[k];
+    const double cost = gain.travel + one_roll * (1 + open[k]);
     const bool is_enough = open[k] <= least_open + kMostOpen * (1 - least_open);
-    if (prospect.length != 0 && is_enough && cost < choice.cost) choice = {k, cost};
+    if (gain.length != 0 && is_enough && cost < choice.cost) choice = {k, cost};
   }
   return choice;
 }
@@ -133,19 +133,19 @@ Choice least_travel(const Trial& trial, double one_roll) {
 /// Index of the shortest roll that gains nearly as much as the best one.
 std::size_t shortest_as_good_as(const Trial& trial) {
   std::size_t best = trial.here;
-  for (std::size_t k = 0; k < trial.prospects.size(); ++k) {
-    const Prospect& prospect = trial.prospects[k];
+  for (std::size_t k = 0; k < trial.gains.size(); ++k) {
+    const ExpectedGain& gain = trial.gains[k];
     const bool is_enough =
-        prospect.bits >= kNearlyAll * trial.most.bits && prospect.placements <= trial.most.placements + kNearlyAsFew;
+        gain.bits >= kNearlyAll * trial.most.bits && gain.placements <= trial.most.placements + kNearlyAsFew;
     if (!is_enough) continue;
     const bool is_first = best == trial.here && trial.here != k;
-    if (is_first || std::abs(prospect.length) < std::abs(trial.prospects[best].length)) best = k;
+    if (is_first || std::abs(gain.length) < std::abs(trial.gains[best].length)) best = k;
   }
   return best;
 }
 
 /// The travel on other ways, to be expected after this one, for what it does not tell and they do.
-double travel_elsewhere(const std::vector<PartContender>& contenders, const std::list<Trial>& trials,
+double travel_elsewhere(const std::vector<PartHypothesis>& hypotheses, const std::list<Trial>& trials,
                         const Trial& trial, double one_roll) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto elsewhere = [&](std::size_t i, std::size_t j, std::size_t how) {
@@ -154,29 +154,29 @@ double travel_elsewhere(const std::vector<PartContender>& contenders, const std:
     return least;
   };
   double sum = 0;
-  for (std::size_t i = 0; i < contenders.size() && trials.size() > 1; ++i) {
+  for (std::size_t i = 0; i < hypotheses.size() && trials.size() > 1; ++i) {
     double farthest = 0;
-    for (std::size_t j = 0; j < contenders.size(); ++j) {
+    for (std::size_t j = 0; j < hypotheses.size(); ++j) {
       if (!trial.to_go->matters(i, j) || trial.told(i, j, 0) < kNever) continue;
       double travel = elsewhere(i, j, 0);
       if (travel == kNever && trial.told(i, j, 1) == kNever) travel = elsewhere(i, j, 1);
       if (travel < kNever) farthest = std::max(farthest, travel + one_roll);
     }
-    sum += contenders[i].contender.probability * farthest;
+    sum += hypotheses[i].hypothesis.probability * farthest;
   }
   return sum;
 }
 
 /// Which way, and which roll on it.
-std::pair<const Trial*, std::size_t> chosen(const std::vector<PartContender>& contenders,
+std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& hypotheses,
                                             const std::list<Trial>& trials) {
-  const double one_roll = kOneRoll * belief::shortest_perimeter(contenders);
+  const double one_roll = kOneRoll * belief::shortest_perimeter(hypotheses);
   const Trial* best = nullptr;
   Choice choice;
   for (const Trial& trial : trials) {
     if (!trial.to_go->tells_any()) continue;
     Choice on_this = least_travel(trial, one_roll);
-    on_this.cost += travel_elsewhere(contenders, trials, trial, one_roll);
+    on_this.cost += travel_elsewhere(hypotheses, trials, trial, one_roll);
     if (best != nullptr && on_this.cost >= choice.cost) continue;
     best = &trial;
     choice = on_this;
@@ -187,72 +187,72 @@ std::pair<const Trial*, std::size_t> chosen(const std::vector<PartContender>& co
   return {best, shortest_as_good_as(*best)};
 }
 
-/// Whether the robot can do this roll from every contender that counts.
-bool can_do(const std::vector<PartContender>& contenders, const AdviceOptions& options, const PerFinger<double>& by) {
-  return std::all_of(contenders.begin(), contenders.end(), [&](const PartContender& one) {
-    return !belief::counts(one, contenders.size()) || options.can_roll(one, by);
+/// Whether the robot can do this roll from every hypothesis that counts.
+bool can_do(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options, const PerFinger<double>& by) {
+  return std::all_of(hypotheses.begin(), hypotheses.end(), [&](const PartHypothesis& one) {
+    return !belief::counts(one, hypotheses.size()) || options.can_roll(one, by);
   });
 }
 
 /// The best roll that the robot can do: where it can't do one, that way ends before it. Of none that it can do nothing
 /// is left but to stay.
-std::pair<const Trial*, std::size_t> chosen_of_possible(const std::vector<PartContender>& contenders,
+std::pair<const Trial*, std::size_t> chosen_of_possible(const std::vector<PartHypothesis>& hypotheses,
                                                         const AdviceOptions& options, std::list<Trial>& trials) {
   for (std::size_t cut = 0;; ++cut) {
-    const std::pair<const Trial*, std::size_t> now = chosen(contenders, trials);
+    const std::pair<const Trial*, std::size_t> now = chosen(hypotheses, trials);
     const Trial* const best = now.first;
-    const double length = best->prospects[now.second].length;
-    if (!options.can_roll || length == 0 || can_do(contenders, options, best->way.rolled(length))) return now;
+    const double length = best->gains[now.second].length;
+    if (!options.can_roll || length == 0 || can_do(hypotheses, options, best->way.rolled(length))) return now;
     const auto at = std::find_if(trials.begin(), trials.end(), [&](const Trial& one) { return &one == best; });
     Way way = at->way;
     (length < 0 ? way.travel.lo : way.travel.hi) = kShorter * length;
     if (cut >= kMostCuts) way.travel = {0, 0};
-    trials.emplace(at, contenders, options, way);
+    trials.emplace(at, hypotheses, options, way);
     trials.erase(at);
   }
 }
 
 /// Of two fingers the likeliest, where they are too many.
-std::vector<PartContender> compared(std::vector<PartContender> contenders) {
-  if (contenders.front().contender.place.size() == 1 || contenders.size() <= kMostPairs) return contenders;
-  std::stable_sort(contenders.begin(), contenders.end(), [](const PartContender& a, const PartContender& b) {
-    return a.contender.probability > b.contender.probability;
+std::vector<PartHypothesis> compared(std::vector<PartHypothesis> hypotheses) {
+  if (hypotheses.front().hypothesis.place.size() == 1 || hypotheses.size() <= kMostPairs) return hypotheses;
+  std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const PartHypothesis& a, const PartHypothesis& b) {
+    return a.hypothesis.probability > b.hypothesis.probability;
   });
-  contenders.resize(kMostPairs);
+  hypotheses.resize(kMostPairs);
   double total = 0;
-  for (const PartContender& one : contenders) total += one.contender.probability;
-  for (PartContender& one : contenders) one.contender.probability /= total;
-  return contenders;
+  for (const PartHypothesis& one : hypotheses) total += one.hypothesis.probability;
+  for (PartHypothesis& one : hypotheses) one.hypothesis.probability /= total;
+  return hypotheses;
 }
 
 }  // namespace
 
-double turn_ahead(const Part& part, const Contender& contender, const PerFinger<double>& lengths) {
+double turn_ahead(const Part& part, const Hypothesis& hypothesis, const PerFinger<double>& lengths) {
   const auto turn = [&](std::size_t finger) {
-    const double from = contender.place[finger];
+    const double from = hypothesis.place[finger];
     return part.turning().angle(from + lengths[finger]) - part.turning().angle(from);
   };
   return lengths.size() == 1 ? turn(0) : turn(0) - turn(1);
 }
 
-Advice advise(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options) {
-  std::vector<PartContender> on_part;
-  for (const Contender& contender : contenders) on_part.push_back({&part, options.reach, contender});
+Advice advise(const Part& part, const std::vector<Hypothesis>& hypotheses, const AdviceOptions& options) {
+  std::vector<PartHypothesis> on_part;
+  for (const Hypothesis& hypothesis : hypotheses) on_part.push_back({&part, options.reach, hypothesis});
   return advise(on_part, options);
 }
 
-Advice advise(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
-  require_valid(contenders, options);
-  const std::vector<PartContender> some = compared(contenders);
+Advice advise(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
+  require_valid(hypotheses, options);
+  const std::vector<PartHypothesis> some = compared(hypotheses);
   std::vector<double> prior;
-  for (const PartContender& one : some) prior.push_back(one.contender.probability);
+  for (const PartHypothesis& one : some) prior.push_back(one.hypothesis.probability);
   std::list<Trial> trials;
   for (const Way& way : belief::ways_of(some, options)) trials.emplace_back(some, options, way);
   const auto [trial, best] = chosen_of_possible(some, options, trials);
   double most_bits = 0;
   for (const Trial& each : trials) most_bits = std::max(most_bits, each.most.bits);
   Advice advice;
-  advice.prospects = trial->prospects;
+  advice.gains = trial->gains;
   advice.best = best;
   advice.way = trial->way.direction;
   advice.bits_wanted = belief::entropy(prior);

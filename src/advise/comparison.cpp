@@ -7,7 +7,7 @@
 #include "belief/posterior.hpp"
 
 // Notation:
-//   i, j, p_i       places that are left, and their probabilities: Contender
+//   i, j, p_i       places that are left, and their probabilities: Hypothesis
 //   x               length of a roll; y_i, V_i: the turn that place i would measure then, and its variance: Seen
 //   d_ij^2          the largest (y_i - y_j)^2 / (V_i + V_j) on the way: `distance_`
 //   q_j             p_j exp(-d_ij^2 / 2) over their sum: what j is worth where i is true: `left`
@@ -24,7 +24,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Squared: from there on a place is left with less probability, beside the true one, than counts.
 double distance_wanted(double of_true, double of_other) {
-  return 2 * std::log(std::max(of_other / (kContenderCounts * of_true), 1 + kContenderCounts));
+  return 2 * std::log(std::max(of_other / (kHypothesisCounts * of_true), 1 + kHypothesisCounts));
 }
 
 /// Finger a's turn counts with this sign, finger b's with the other.
@@ -40,33 +40,33 @@ double entropy(const std::vector<double>& weights) {
   return bits;
 }
 
-double shortest_perimeter(const std::vector<PartContender>& contenders) {
+double shortest_perimeter(const std::vector<PartHypothesis>& hypotheses) {
   double shortest = kNever;
-  for (const PartContender& one : contenders) shortest = std::min(shortest, one.part->perimeter());
+  for (const PartHypothesis& one : hypotheses) shortest = std::min(shortest, one.part->perimeter());
   return shortest;
 }
 
-Comparison::Comparison(const std::vector<PartContender>& contenders, const AdviceOptions& options,
+Comparison::Comparison(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options,
                        const PerFinger<double>& direction)
-    : contenders_(contenders), options_(options), direction_(direction) {
-  const std::size_t n = contenders.size();
+    : hypotheses_(hypotheses), options_(options), direction_(direction) {
+  const std::size_t n = hypotheses.size();
   distance_.assign(n * n, 0);
   told_.assign(n * n, {kNever, kNever});
-  for (const PartContender& one : contenders) {
+  for (const PartHypothesis& one : hypotheses) {
     PerFinger<Turning>& start = start_.emplace_back(PerFinger<Turning>::of(direction.size()));
-    for (std::size_t k = 0; k < direction.size(); ++k) start[k] = one.part->turning().at(one.contender.place[k]);
+    for (std::size_t k = 0; k < direction.size(); ++k) start[k] = one.part->turning().at(one.hypothesis.place[k]);
   }
 }
 
-Prospect Comparison::roll_to(double x) {
+ExpectedGain Comparison::roll_to(double x) {
   compare_at(x);
   note_told(std::abs(x));
   return expected(x);
 }
 
-/// What this contender would read at x, and how badly that is known.
-Comparison::Seen Comparison::seen_by(std::size_t contender, double x) const {
-  const PartContender& one = contenders_[contender];
+/// What this hypothesis would read at x, and how badly that is known.
+Comparison::Seen Comparison::seen_by(std::size_t hypothesis, double x) const {
+  const PartHypothesis& one = hypotheses_[hypothesis];
   if (options_.foresees) {
     const Foreseen foreseen = options_.foresees(one, Way{direction_, {}}.rolled(x));
     return {foreseen.value, foreseen.variance};
@@ -75,20 +75,20 @@ Comparison::Seen Comparison::seen_by(std::size_t contender, double x) const {
   PerFinger<double> by_place = PerFinger<double>::of(direction_.size());
   for (std::size_t k = 0; k < direction_.size(); ++k) {
     const double length = x * direction_[k];
-    const Turning now = one.part->turning().at(one.contender.place[k] + length);
-    const Turning& start = start_[contender][k];
+    const Turning now = one.part->turning().at(one.hypothesis.place[k] + length);
+    const Turning& start = start_[hypothesis][k];
     seen.turn += sign_of(k) * (now.angle - start.angle);
     by_place[k] = sign_of(k) * (now.curvature - start.curvature);
     seen.variance += (square(options_.length_sd) / options_.rows + square(options_.length_share_sd * length)) *
                          square(now.curvature) +
-                     square(one.contender.sd[k] * by_place[k]);
+                     square(one.hypothesis.sd[k] * by_place[k]);
   }
-  if (direction_.size() == 2) seen.variance += 2 * by_place[0] * by_place[1] * one.contender.covariance;
+  if (direction_.size() == 2) seen.variance += 2 * by_place[0] * by_place[1] * one.hypothesis.covariance;
   return seen;
 }
 
 void Comparison::compare_at(double x) {
-  const std::size_t n = contenders_.size();
+  const std::size_t n = hypotheses_.size();
   std::vector<Seen> seen;
   seen.reserve(n);
   for (std::size_t i = 0; i < n; ++i) seen.push_back(seen_by(i, x));
@@ -103,12 +103,13 @@ void Comparison::compare_at(double x) {
 }
 
 void Comparison::note_told(double travel) {
-  const std::size_t n = contenders_.size();
+  const std::size_t n = hypotheses_.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       std::array<double, 2>& told = told_[i * n + j];
       if (told[0] < kNever) continue;
-      const double wanted = distance_wanted(contenders_[i].contender.probability, contenders_[j].contender.probability);
+      const double wanted =
+          distance_wanted(hypotheses_[i].hypothesis.probability, hypotheses_[j].hypothesis.probability);
       const double distance = distance_[i * n + j];
       if (distance >= wanted) told[0] = travel;
       if (distance >= kInPart * wanted) told[1] = std::min(told[1], travel);
@@ -116,31 +117,32 @@ void Comparison::note_told(double travel) {
   }
 }
 
-Prospect Comparison::expected(double x) const {
-  const std::size_t n = contenders_.size();
+ExpectedGain Comparison::expected(double x) const {
+  const std::size_t n = hypotheses_.size();
   std::vector<double> prior(n);
   std::size_t labels = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    prior[i] = contenders_[i].contender.probability;
-    labels = std::max(labels, contenders_[i].contender.label + 1);
+    prior[i] = hypotheses_[i].hypothesis.probability;
+    labels = std::max(labels, hypotheses_[i].hypothesis.label + 1);
   }
-  Prospect prospect{x, 0, entropy(prior)};
+  ExpectedGain gain{x, 0, entropy(prior)};
   std::vector<double> left(n);
   std::vector<double> of_label(labels);
   for (std::size_t i = 0; i < n; ++i) {
-    // Contender i is the true one: what the others are worth then.
+    // Hypothesis i is the true one: what the others are worth then.
     double total = 0;
     for (std::size_t j = 0; j < n; ++j) total += left[j] = prior[j] * std::exp(-0.5 * distance_[i * n + j]);
     std::fill(of_label.begin(), of_label.end(), 0);
     for (std::size_t j = 0; j < n; ++j) {
       left[j] /= total;
-      of_label[contenders_[j].contender.label] += left[j];
+      of_label[hypotheses_[j].hypothesis.label] += left[j];
     }
-    prospect.bits -= prior[i] * entropy(left);
-    const auto counts = std::count_if(of_label.begin(), of_label.end(), [](double p) { return p >= kContenderCounts; });
-    prospect.placements += prior[i] * static_cast<double>(counts);
+    gain.bits -= prior[i] * entropy(left);
+    const auto counts =
+        std::count_if(of_label.begin(), of_label.end(), [](double p) { return p >= kHypothesisCounts; });
+    gain.placements += prior[i] * static_cast<double>(counts);
   }
-  return prospect;
+  return gain;
 }
 
 }  // namespace rollfix::belief

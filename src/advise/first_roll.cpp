@@ -11,7 +11,7 @@
 namespace rollfix {
 namespace {
 
-// So many that each counts where all are as probable (kContenderCounts, 1 %); of two fingers pairs.
+// So many that each counts where all are as probable (kHypothesisCounts, 1 %); of two fingers pairs.
 constexpr std::size_t kPlacesBefore = 90;
 constexpr std::size_t kPlacesOfEach = 9;
 

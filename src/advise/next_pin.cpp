@@ -73,7 +73,7 @@ class PinWay {
 
 /// On one way, from one place and from what it may be off by.
 struct Outlook {
-  Outlook(const HoldAnswer& held, const Contender& from, const Vec2& to) : way(held, from.place, to) {
+  Outlook(const HoldAnswer& held, const Hypothesis& from, const Vec2& to) : way(held, from.place, to) {
     for (const std::size_t k : {0U, 1U}) {
       PerFinger<double> off = from.place;
       off[k] += from.sd[k];
@@ -88,14 +88,14 @@ struct Outlook {
 /// All ways from all places.
 class Outlooks {
  public:
-  Outlooks(const HoldAnswer& held, const std::vector<Contender>& contenders, const Interval& travel)
-      : contenders_(contenders) {
+  Outlooks(const HoldAnswer& held, const std::vector<Hypothesis>& hypotheses, const Interval& travel)
+      : hypotheses_(hypotheses) {
     const double P = held.part.perimeter();
     contact_ = held.noise ? held.noise->contact : kExactShare * P;
     pin_ = held.noise ? held.noise->position : kExactShare * P;
     const std::size_t ways = held.squeezed ? 1 : kPinWays.size();
     for (std::size_t k = 0; k < ways; ++k) {
-      for (const Contender& one : contenders) {
+      for (const Hypothesis& one : hypotheses) {
         for (const double end : ends_of(k, travel)) ahead_.emplace_back(held, one, end * way(k));
       }
     }
@@ -103,9 +103,9 @@ class Outlooks {
 
   std::vector<std::pair<PerFinger<double>, Interval>> ways() const {
     std::vector<std::pair<PerFinger<double>, Interval>> all;
-    for (std::size_t k = 0; k * contenders_.size() * 2 < ahead_.size(); ++k) {
+    for (std::size_t k = 0; k * hypotheses_.size() * 2 < ahead_.size(); ++k) {
       Interval common{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-      for (std::size_t i = 0; i < contenders_.size(); ++i) {
+      for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
         const double longest = way(k).norm();
         common.lo = std::max(common.lo, -outlook(k, i, false).way.reach() / longest);
         common.hi = std::min(common.hi, outlook(k, i, true).way.reach() / longest);
@@ -136,21 +136,21 @@ class Outlooks {
 
   static Vec2 way(std::size_t k) { return {kPinWays[k][0], kPinWays[k][1]}; }
 
-  const Outlook& outlook(std::size_t k, std::size_t contender, bool forward) const {
-    return ahead_[2 * (k * contenders_.size() + contender) + (forward ? 1 : 0)];
+  const Outlook& outlook(std::size_t k, std::size_t hypothesis, bool forward) const {
+    return ahead_[2 * (k * hypotheses_.size() + hypothesis) + (forward ? 1 : 0)];
   }
 
   const Outlook& outlook_towards(const PerFinger<double>& from, const Vec2& to) const {
-    std::size_t contender = 0, best = 0;
-    while (!(contenders_[contender].place == from)) ++contender;
+    std::size_t hypothesis = 0, best = 0;
+    while (!(hypotheses_[hypothesis].place == from)) ++hypothesis;
     const auto along = [&](std::size_t k) { return std::abs(way(k).normalized().dot(to)); };
-    for (std::size_t k = 1; k * contenders_.size() * 2 < ahead_.size(); ++k) {
+    for (std::size_t k = 1; k * hypotheses_.size() * 2 < ahead_.size(); ++k) {
       if (along(k) > along(best)) best = k;
     }
-    return outlook(best, contender, way(best).dot(to) > 0);
+    return outlook(best, hypothesis, way(best).dot(to) > 0);
   }
 
-  const std::vector<Contender>& contenders_;
+  const std::vector<Hypothesis>& hypotheses_;
   double contact_ = 0;
   double pin_ = 0;
   std::vector<Outlook> ahead_;
@@ -165,22 +165,22 @@ void require_rig(const HoldAnswer& held) {
                   counted(held.rolls.size(), "log", "logs"), held.rolls[0].is_jaw ? "a jaw first" : "no jaw first"));
 }
 
-std::vector<Contender> contenders_of(const HoldAnswer& held) {
-  std::vector<Contender> contenders;
+std::vector<Hypothesis> hypotheses_of(const HoldAnswer& held) {
+  std::vector<Hypothesis> hypotheses;
   double total = 0;
   for (std::size_t k = 0; k < std::min(held.placements.size(), kMostPinPlaces); ++k) {
     const std::vector<HoldContact>& contacts = held.placements[k].contacts;
-    Contender one{{contacts[0].end, contacts[1].end}, {0.0, 0.0}, 1, k};
+    Hypothesis one{{contacts[0].end, contacts[1].end}, {0.0, 0.0}, 1, k};
     if (held.noise) {
       one.place = {contacts[0].end_mean, contacts[1].end_mean};
       one.sd = {contacts[0].end_sd, contacts[1].end_sd};
       one.probability = held.placements[k].probability;
     }
     total += one.probability;
-    contenders.push_back(one);
+    hypotheses.push_back(one);
   }
-  for (Contender& one : contenders) one.probability /= total;
-  return contenders;
+  for (Hypothesis& one : hypotheses) one.probability /= total;
+  return hypotheses;
 }
 
 }  // namespace
@@ -188,19 +188,19 @@ std::vector<Contender> contenders_of(const HoldAnswer& held) {
 NextPin next_pin(const HoldAnswer& held, const std::optional<Interval>& travel) {
   require_rig(held);
   NextPin next;
-  next.contenders = contenders_of(held);
-  if (next.contenders.size() < 2) {
-    next.why = next.contenders.empty() ? "there is no place left" : "there is only one place left";
+  next.hypotheses = hypotheses_of(held);
+  if (next.hypotheses.size() < 2) {
+    next.why = next.hypotheses.empty() ? "there is no place left" : "there is only one place left";
     return next;
   }
   const double usual = kPinTravel * held.part.perimeter();
-  const Outlooks outlooks(held, next.contenders, travel.value_or(Interval{-usual, usual}));
+  const Outlooks outlooks(held, next.hypotheses, travel.value_or(Interval{-usual, usual}));
   AdviceOptions options;
   options.ways = outlooks.ways();
-  options.foresees = [&](const PartContender& one, const PerFinger<double>& by) {
-    return outlooks.foreseen(one.contender.place, by);
+  options.foresees = [&](const PartHypothesis& one, const PerFinger<double>& by) {
+    return outlooks.foreseen(one.hypothesis.place, by);
   };
-  next.advice = advise(held.part, next.contenders, options);
+  next.advice = advise(held.part, next.hypotheses, options);
   if (!next.advice->helps) {
     next.why = symmetry(held.part) == 0 ? "the part looks the same from every place on its boundary"
                : symmetry(held.part) > 1
@@ -208,7 +208,7 @@ NextPin next_pin(const HoldAnswer& held, const std::optional<Interval>& travel) 
                    : "no motion that all of them allow moves the jaw's contact otherwise; turn the jaw, or roll on";
     return next;
   }
-  for (const Contender& one : next.contenders) {
+  for (const Hypothesis& one : next.hypotheses) {
     next.travels.push_back(outlooks.foreseen(one.place, next.advice->lengths()).value);
   }
   if (held.mirrored) next.advice->way[0] *= -1;  // as the world sees the jaw's x

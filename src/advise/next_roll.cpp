@@ -48,7 +48,7 @@ PerFinger<double> hardly(PerFinger<double> by) {
 }
 
 /// Why two fingers can't roll on by these lengths from a place; nothing: they can.
-std::optional<std::string> why_not_planned(const Answer& answer, const Contender& from, const PerFinger<double>& by,
+std::optional<std::string> why_not_planned(const Answer& answer, const Hypothesis& from, const PerFinger<double>& by,
                                            const PerFinger<double>& friction) {
   PlanProblem problem{answer.part, PerFinger<PlanFinger>(PlanFinger{}, PlanFinger{})};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -107,19 +107,19 @@ std::optional<PerFinger<double>> disks_for_advice(const Answer& answer, bool may
   return radii;
 }
 
-double NextRoll::turn_ahead(const Contender& contender) const {
-  return rollfix::turn_ahead(answer.part, contender, advice->lengths());
+double NextRoll::turn_ahead(const Hypothesis& hypothesis) const {
+  return rollfix::turn_ahead(answer.part, hypothesis, advice->lengths());
 }
 
 NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel, bool may_overlap,
                    const std::optional<PerFinger<double>>& friction) {
   if (friction) require_fingers_to_plan(answer);
-  NextRoll next{answer, contenders_of(answer.part, answer.placements)};
-  if (next.contenders.empty()) {
+  NextRoll next{answer, hypotheses_of(answer.part, answer.placements)};
+  if (next.hypotheses.empty()) {
     next.why = "nothing fits: there is nothing to tell apart";
     return next;
   }
-  if (next.contenders.size() == 1 || (answer.weighing && answer.verdict.name == Verdict::unique)) {
+  if (next.hypotheses.size() == 1 || (answer.weighing && answer.verdict.name == Verdict::unique)) {
     next.why = "there is only one place left";
     return next;
   }
@@ -127,16 +127,16 @@ NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel, 
   const ReachForAdvice reach(answer);
   options.reach = reach.pointers();
   options.disks = disks_for_advice(answer, may_overlap);
-  const Advice any = advise(answer.part, next.contenders, options);
+  const Advice any = advise(answer.part, next.hypotheses, options);
   next.advice = any;
   if (friction && any.helps) {
     bool can_any = false;
-    options.can_roll = [&](const PartContender& from, const PerFinger<double>& by) {
-      const bool can = !why_not_planned(answer, from.contender, by, *friction);
+    options.can_roll = [&](const PartHypothesis& from, const PerFinger<double>& by) {
+      const bool can = !why_not_planned(answer, from.hypothesis, by, *friction);
       can_any = can_any || can;
-      return can || why_not_planned(answer, from.contender, hardly(by), *friction);
+      return can || why_not_planned(answer, from.hypothesis, hardly(by), *friction);
     };
-    next.advice = advise(answer.part, next.contenders, options);
+    next.advice = advise(answer.part, next.hypotheses, options);
     if (!can_any) {
       next.advice->helps = false;
       next.why = "with this friction the fingers could not hold the part in any of them";

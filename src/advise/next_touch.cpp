@@ -8,7 +8,7 @@
 
 #include "advise/part_in_poses.hpp"
 #include "advise/roll_instead.hpp"
-#include "advise/touch_prospects.hpp"
+#include "advise/touch_gains.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
@@ -25,25 +25,25 @@ constexpr double kAboutAsManyBits = 0.02;
 constexpr std::size_t kMostClosePairs = 120000;
 
 /// Whether one gains more, or about as much and goes at the part head on: along a side a little may make it miss.
-bool is_better(const TouchProspect& one, const TouchProspect& other) {
+bool is_better(const TouchGain& one, const TouchGain& other) {
   const double more = std::round(one.bits / kAboutAsManyBits) - std::round(other.bits / kAboutAsManyBits);
   return more > 0 || (more == 0 && one.head_on > other.head_on);
 }
 
-/// Looks closely at the most promising prospects, and says which of them is best. Bits are no more than roughly: if
+/// Looks closely at the most promising touches, and says which of them is best. Bits are no more than roughly: if
 /// only the best is asked for, what is roughly no better than it needs no closer look.
-std::size_t best_of(TouchProspects& touches, std::size_t poses, std::vector<TouchProspect>& prospects, bool only_best) {
-  std::vector<std::size_t> order(prospects.size());
+std::size_t best_of(TouchGains& touches, std::size_t poses, std::vector<TouchGain>& gains, bool only_best) {
+  std::vector<std::size_t> order(gains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
+                   [&](std::size_t a, std::size_t b) { return is_better(gains[a], gains[b]); });
   order.resize(std::min(order.size(), std::max<std::size_t>(1, kMostClosePairs / (poses * poses))));
-  std::size_t best = prospects.size();
+  std::size_t best = gains.size();
   for (const std::size_t k : order) {
-    const bool is_first = best == prospects.size();
-    if (!is_first && only_best && !is_better(prospects[k], prospects[best])) break;
-    prospects[k] = touches.close(prospects[k].approach);
-    if (is_first || is_better(prospects[k], prospects[best])) best = k;
+    const bool is_first = best == gains.size();
+    if (!is_first && only_best && !is_better(gains[k], gains[best])) break;
+    gains[k] = touches.close(gains[k].approach);
+    if (is_first || is_better(gains[k], gains[best])) best = k;
   }
   return best;
 }
@@ -94,11 +94,11 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
   if (!next.why.empty()) return next;
   const Doing doing("looking for the touch that tells most");
   touch::PartInPoses lying(answer, touch::likely_poses(answer));
-  touch::TouchProspects touches(lying);
+  touch::TouchGains touches(lying);
   for (const Approach& approach : approaches.empty() ? touch::approaches_around(lying) : approaches) {
-    next.prospects.push_back(touches.rough(approach));
+    next.gains.push_back(touches.rough(approach));
   }
-  next.best = touch::best_of(touches, lying.poses().size(), next.prospects, approaches.empty());
+  next.best = touch::best_of(touches, lying.poses().size(), next.gains, approaches.empty());
   if (!answer.poses.empty()) {
     for (touch::Forecast& one : touches.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
   }

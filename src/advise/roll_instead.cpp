@@ -87,13 +87,13 @@ double bits_of(const Part& part, const std::vector<RollStart>& starts, double le
 
 }  // namespace
 
-std::optional<RollProspect> roll_instead(const TouchAnswer& answer, const std::vector<LikelyPose>& poses,
-                                         PartDistance& part) {
+std::optional<RollGain> roll_instead(const TouchAnswer& answer, const std::vector<LikelyPose>& poses,
+                                     PartDistance& part) {
   const double sd = direction_sd(answer);
   if (!(answer.radius > 0) || !(sd > 0)) return std::nullopt;
   std::vector<RollStart> starts;
   for (const LikelyPose& one : poses) starts.push_back(start_in(one, answer, part));
-  std::vector<RollProspect> rolls;
+  std::vector<RollGain> rolls;
   for (int k = 1; k <= kMostRollSteps; ++k) {
     for (const double way : {1.0, -1.0}) {
       const double length = way * k * kRollStep * answer.part.perimeter();
@@ -104,9 +104,9 @@ std::optional<RollProspect> roll_instead(const TouchAnswer& answer, const std::v
     }
   }
   double most = kLeastRollBits;
-  for (const RollProspect& roll : rolls) most = std::max(most, roll.bits);
-  const auto first = std::find_if(rolls.begin(), rolls.end(),
-                                  [&](const RollProspect& roll) { return roll.bits >= kNearlyAsMany * most; });
+  for (const RollGain& roll : rolls) most = std::max(most, roll.bits);
+  const auto first =
+      std::find_if(rolls.begin(), rolls.end(), [&](const RollGain& roll) { return roll.bits >= kNearlyAsMany * most; });
   return first == rolls.end() ? std::nullopt : std::optional(*first);
 }
 

@@ -11,7 +11,7 @@ namespace rollfix::touch {
 
 /// The roll from the last touch that tells most of these poses apart, by how much the tangent turns along it. None: the
 /// finger is a point, no angle is measured, or no roll gains anything.
-std::optional<RollProspect> roll_instead(const TouchAnswer& answer, const std::vector<LikelyPose>& poses,
-                                         PartDistance& part);
+std::optional<RollGain> roll_instead(const TouchAnswer& answer, const std::vector<LikelyPose>& poses,
+                                     PartDistance& part);
 
 }  // namespace rollfix::touch

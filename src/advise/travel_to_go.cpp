@@ -17,11 +17,11 @@ constexpr double kNotTold = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Travel::Travel(const std::vector<PartContender>& contenders, const Comparison& back, const Comparison& forward)
-    : contenders_(contenders), back_(back), forward_(forward) {
-  const std::size_t n = contenders.size();
+Travel::Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward)
+    : hypotheses_(hypotheses), back_(back), forward_(forward) {
+  const std::size_t n = hypotheses.size();
   others_.resize(n);
-  for (const PartContender& one : contenders) of_label_[one.contender.label] += one.contender.probability;
+  for (const PartHypothesis& one : hypotheses) of_label_[one.hypothesis.label] += one.hypothesis.probability;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) add_other(i, j);
   }
@@ -34,18 +34,18 @@ bool Travel::tells_any() const {
 double Travel::after(double x) const {
   double on = 0;
   double back = 0;
-  for (std::size_t i = 0; i < contenders_.size(); ++i) {
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     const auto [if_on, if_back] = left_after(i, x);
-    on += contenders_[i].contender.probability * if_on;
-    back += contenders_[i].contender.probability * if_back;
+    on += hypotheses_[i].hypothesis.probability * if_on;
+    back += hypotheses_[i].hypothesis.probability * if_back;
   }
   return std::abs(x) + std::min(on, back);
 }
 
 double Travel::open_after(double x) const {
   double open = 0;
-  for (std::size_t i = 0; i < contenders_.size(); ++i) {
-    if (is_open_after(i, x)) open += contenders_[i].contender.probability;
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    if (is_open_after(i, x)) open += hypotheses_[i].hypothesis.probability;
   }
   return open;
 }
@@ -64,9 +64,9 @@ void Travel::add_other(std::size_t i, std::size_t j) {
 
 /// Of one placement, which need not get narrower than that.
 bool Travel::are_one_place(std::size_t i, std::size_t j) const {
-  const Part& part = *contenders_[i].part;
-  const Contender& one = contenders_[i].contender;
-  const Contender& other = contenders_[j].contender;
+  const Part& part = *hypotheses_[i].part;
+  const Hypothesis& one = hypotheses_[i].hypothesis;
+  const Hypothesis& other = hypotheses_[j].hypothesis;
   if (one.label != other.label) return false;
   for (std::size_t k = 0; k < one.place.size(); ++k) {
     if (part.boundary().distance(one.place[k], other.place[k]) >= kOnePlace * part.perimeter()) return false;

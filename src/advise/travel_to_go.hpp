@@ -12,7 +12,7 @@ namespace rollfix::belief {
 /// What is still to be travelled after a roll, for the place where the contact is to be told from the others.
 class Travel {
  public:
-  Travel(const std::vector<PartContender>& contenders, const Comparison& back, const Comparison& forward);
+  Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward);
 
   bool tells_any() const;
   /// After a roll to x: what is to be expected until all are told apart that can be, this roll included. Which of the
@@ -32,16 +32,16 @@ class Travel {
 
   void add_other(std::size_t i, std::size_t j);
   bool are_one_place(std::size_t i, std::size_t j) const;
-  bool counts(std::size_t j) const { return of_label_.at(contenders_[j].contender.label) >= kContenderCounts; }
+  bool counts(std::size_t j) const { return of_label_.at(hypotheses_[j].hypothesis.label) >= kHypothesisCounts; }
   bool is_open_after(std::size_t i, double x) const;
   std::array<double, 2> left_after(std::size_t i, double x) const;
   static double shorter_way(const Other& ends, double rolled);
 
-  const std::vector<PartContender>& contenders_;
+  const std::vector<PartHypothesis>& hypotheses_;
   const Comparison& back_;
   const Comparison& forward_;
   std::map<std::size_t, double> of_label_;  // probability
-  std::vector<std::vector<Other>> others_;  // of each contender, those that can be told from it
+  std::vector<std::vector<Other>> others_;  // of each hypothesis, those that can be told from it
 };
 
 }  // namespace rollfix::belief

@@ -15,14 +15,14 @@ constexpr std::array<std::array<double, 2>, 8> kWaysOfTwo = {
 // Places along a way, to either side, at which it is looked whether two disks overlap.
 constexpr std::size_t kLooks = 64;
 
-/// The lengths over which this finger can roll in every contender that counts.
-Interval common_travel(const std::vector<PartContender>& contenders, const std::optional<Interval>& wanted,
+/// The lengths over which this finger can roll in every hypothesis that counts.
+Interval common_travel(const std::vector<PartHypothesis>& hypotheses, const std::optional<Interval>& wanted,
                        std::size_t finger) {
-  const double shortest = shortest_perimeter(contenders);
+  const double shortest = shortest_perimeter(hypotheses);
   Interval travel = wanted.value_or(Interval{-shortest, shortest});
-  for (const PartContender& one : contenders) {
-    if (!counts(one, contenders.size())) continue;
-    const double place = one.contender.place[finger];
+  for (const PartHypothesis& one : hypotheses) {
+    if (!counts(one, hypotheses.size())) continue;
+    const double place = one.hypothesis.place[finger];
     if (!one.part->closed()) {
       travel.lo = std::max(travel.lo, -place);
       travel.hi = std::min(travel.hi, one.part->perimeter() - place);
@@ -43,18 +43,18 @@ Vec2 disk_at(const Part& part, double s, double radius) {
   return part.point(s) + radius * Vec2(std::sin(tangent), -std::cos(tangent));
 }
 
-bool overlap(const PartContender& one, const PerFinger<double>& disks, const Way& way, double x) {
+bool overlap(const PartHypothesis& one, const PerFinger<double>& disks, const Way& way, double x) {
   const auto centre = [&](std::size_t finger) {
-    return disk_at(*one.part, one.contender.place[finger] + x * way.direction[finger], disks[finger]);
+    return disk_at(*one.part, one.hypothesis.place[finger] + x * way.direction[finger], disks[finger]);
   };
   return (centre(0) - centre(1)).norm() < disks[0] + disks[1];
 }
 
-/// As far as no contender that counts has one disk in the other. Where they overlap from the start it is not known
+/// As far as no hypothesis that counts has one disk in the other. Where they overlap from the start it is not known
 /// better.
-void stop_at_overlap(const std::vector<PartContender>& contenders, const PerFinger<double>& disks, Way& way) {
-  for (const PartContender& one : contenders) {
-    if (!counts(one, contenders.size()) || overlap(one, disks, way, 0)) continue;
+void stop_at_overlap(const std::vector<PartHypothesis>& hypotheses, const PerFinger<double>& disks, Way& way) {
+  for (const PartHypothesis& one : hypotheses) {
+    if (!counts(one, hypotheses.size()) || overlap(one, disks, way, 0)) continue;
     for (double* const end : {&way.travel.lo, &way.travel.hi}) {
       const double whole = *end;
       for (std::size_t k = 1; k <= kLooks; ++k) {
@@ -81,23 +81,23 @@ Interval travel_on(const PerFinger<double>& direction, const std::array<Interval
 
 }  // namespace
 
-bool counts(const PartContender& one, std::size_t contenders) {
-  return one.contender.probability >= kContenderCounts || contenders == 1;
+bool counts(const PartHypothesis& one, std::size_t hypotheses) {
+  return one.hypothesis.probability >= kHypothesisCounts || hypotheses == 1;
 }
 
-std::vector<Way> ways_of(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
+std::vector<Way> ways_of(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
   if (options.foresees) {
     std::vector<Way> given;
     for (const auto& [direction, travel] : options.ways) given.push_back({direction, travel});
     return given;
   }
-  const Interval of_a = common_travel(contenders, options.travel, 0);
-  if (contenders.front().contender.place.size() == 1) return {Way{1.0, of_a}};
-  const std::array<Interval, 2> each = {of_a, common_travel(contenders, options.travel, 1)};
+  const Interval of_a = common_travel(hypotheses, options.travel, 0);
+  if (hypotheses.front().hypothesis.place.size() == 1) return {Way{1.0, of_a}};
+  const std::array<Interval, 2> each = {of_a, common_travel(hypotheses, options.travel, 1)};
   std::vector<Way> ways;
   for (const std::array<double, 2>& direction : kWaysOfTwo) {
     Way way{direction, travel_on(direction, each)};
-    if (options.disks) stop_at_overlap(contenders, *options.disks, way);
+    if (options.disks) stop_at_overlap(hypotheses, *options.disks, way);
     ways.push_back(way);
   }
   return ways;

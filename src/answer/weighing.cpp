@@ -125,7 +125,7 @@ double finger_curvature(const Problem& problem, std::size_t which, std::size_t r
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed) {
   if (!problem.noise) return std::nullopt;
   const std::size_t fingers = observed.readings.front().fingers();
-  Contacts contacts{PerFinger<double>::of(fingers), observed.facing, problem.fingers};
+  FingerGeometry contacts{PerFinger<double>::of(fingers), observed.facing, problem.fingers};
   const bool has_centres = observed.contacts && problem.felt.log->fingers.front().x.size() == problem.felt.log->rows();
   if (problem.noise->position > 0 && !has_centres) {
     throw InputError(

@@ -23,7 +23,7 @@ constexpr double kWide = 0.1;
 // share of that.
 constexpr double kAnywhere = 0.9;
 
-void require_valid(const Part& part, const BeliefOptions& options, const Contacts& contacts) {
+void require_valid(const Part& part, const BeliefOptions& options, const FingerGeometry& contacts) {
   belief::require_weighable(options.noise);
   if (options.prior &&
       !(std::isfinite(options.prior->s) && std::isfinite(options.prior->sd) && options.prior->sd > 0)) {
@@ -63,7 +63,7 @@ struct Belief::State {
 
   Part part;
   BeliefOptions options;
-  Contacts contacts;
+  FingerGeometry contacts;
   std::unique_ptr<Posterior> posterior;
   std::unique_ptr<Posterior> of_rows_alone;  // without the prior; none where there is none
   std::size_t settled_at;                    // after so many samples; none: the largest
@@ -141,7 +141,7 @@ Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
   return verdict_of(outcome.fit, remaining, part.boundary());
 }
 
-Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {
+Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts) {
   require_valid(part, options, contacts);
   BeliefOptions on_part = options;
   on_part.noise = noise_on(part, options.noise);

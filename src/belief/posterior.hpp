@@ -243,9 +243,9 @@ class Posterior {
 };
 
 std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, const BeliefOptions& options,
-                                            const Contacts& contacts);
+                                            const FingerGeometry& contacts);
 std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
-                                            const Contacts& contacts);
+                                            const FingerGeometry& contacts);
 
 /// What is left of all places: how many that count, how probable the likeliest is, 0 of none, and as much of the
 /// boundary as holds 95 %, length.

@@ -102,17 +102,17 @@ std::string format_identified(const Catalog& catalog, const IdentifiedByTouches&
 
 std::string format_next_roll(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,
                              Layout layout) {
-  Json contenders = Json::array();
+  Json hypotheses = Json::array();
   for (const NextRollOfParts::Place& place : next.places) {
-    contenders.push_back({{"part", catalog.entry(found.parts[place.part].weight.part).name},
-                          {"placement", place.contender.label},
-                          {"contact", per_finger_json(place.contender.place)},
-                          {"sd", per_finger_json(place.contender.sd)},
-                          {"probability", json_number(place.contender.probability)},
+    hypotheses.push_back({{"part", catalog.entry(found.parts[place.part].weight.part).name},
+                          {"placement", place.hypothesis.label},
+                          {"contact", per_finger_json(place.hypothesis.place)},
+                          {"sd", per_finger_json(place.hypothesis.sd)},
+                          {"probability", json_number(place.hypothesis.probability)},
                           {"turn", next.helps() ? json_number(place.turn_ahead) : Json(nullptr)}});
   }
   const Json of = {{"catalog", catalog_json(catalog, found)}};
-  return formatted(advice_json(found.verdict, of, next.advice, next.why, contenders), layout);
+  return formatted(advice_json(found.verdict, of, next.advice, next.why, hypotheses), layout);
 }
 
 }  // namespace rollfix

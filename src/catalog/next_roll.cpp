@@ -20,15 +20,15 @@ std::vector<NextRollOfParts::Place> places_of(const Identified& found) {
   for (std::size_t k = 0; k < found.parts.size() && labels < kMostPlaces; ++k) {
     const PartFound& one = found.parts[k];
     const double part_probability = std::isnan(one.probability) ? all_alike : one.probability;
-    for (Contender contender : contenders_of(one.answer.part, one.answer.placements)) {
-      contender.probability *= part_probability;
-      contender.label += labels;
-      total += contender.probability;
-      places.push_back({k, contender});
+    for (Hypothesis hypothesis : hypotheses_of(one.answer.part, one.answer.placements)) {
+      hypothesis.probability *= part_probability;
+      hypothesis.label += labels;
+      total += hypothesis.probability;
+      places.push_back({k, hypothesis});
     }
     labels += one.answer.placements.size();
   }
-  for (NextRollOfParts::Place& place : places) place.contender.probability /= total;
+  for (NextRollOfParts::Place& place : places) place.hypothesis.probability /= total;
   return places;
 }
 
@@ -58,19 +58,19 @@ NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>
   }
   std::vector<ReachForAdvice> reaches;
   for (const PartFound& one : found.parts) reaches.emplace_back(one.answer);
-  std::vector<PartContender> contenders;
+  std::vector<PartHypothesis> hypotheses;
   for (const NextRollOfParts::Place& place : next.places) {
-    contenders.push_back({&found.parts[place.part].answer.part, reaches[place.part].pointers(), place.contender});
+    hypotheses.push_back({&found.parts[place.part].answer.part, reaches[place.part].pointers(), place.hypothesis});
   }
   AdviceOptions options = advice_options(found.parts.front().answer, travel);
   options.disks = disks_for_advice(found.parts.front().answer, false);
-  next.advice = advise(contenders, options);
+  next.advice = advise(hypotheses, options);
   if (!next.advice->helps) {
     next.why = why_no_roll(found);
     return next;
   }
   for (NextRollOfParts::Place& place : next.places) {
-    place.turn_ahead = turn_ahead(found.parts[place.part].answer.part, place.contender, next.advice->lengths());
+    place.turn_ahead = turn_ahead(found.parts[place.part].answer.part, place.hypothesis, next.advice->lengths());
   }
   return next;
 }

@@ -36,7 +36,7 @@ Json next_roll_json(const NextRoll& next);
 Json per_finger_json(const PerFinger<double>& values);
 /// Of one part or of several: `of` says which.
 Json advice_json(const std::string& verdict, const Json& of, const std::optional<Advice>& advice,
-                 const std::string& why, const Json& contenders);
+                 const std::string& why, const Json& hypotheses);
 
 /// The field `taught` of "rollfix/teach/1".
 Json taught_json(const Taught& taught);

@@ -8,7 +8,7 @@ Json per_finger_json(const PerFinger<double>& values) {
 }
 
 Json advice_json(const std::string& verdict, const Json& of, const std::optional<Advice>& advice,
-                 const std::string& why, const Json& contenders) {
+                 const std::string& why, const Json& hypotheses) {
   Json document = {{"schema", "rollfix/advise/1"},
                    {"verdict", verdict},
                    {"helps", advice && advice->helps},
@@ -18,7 +18,7 @@ Json advice_json(const std::string& verdict, const Json& of, const std::optional
                    {"expected_travel", nullptr},
                    {"bits", nullptr},
                    {"bits_wanted", nullptr},
-                   {"contenders", contenders},
+                   {"contenders", hypotheses},
                    {"prospects", Json::array()}};
   for (const auto& [field, value] : of.items()) document[field] = value;
   if (!advice) return document;
@@ -27,37 +27,37 @@ Json advice_json(const std::string& verdict, const Json& of, const std::optional
   document["expected_travel"] = json_number(advice->advised().travel);
   document["bits"] = json_number(advice->advised().bits);
   document["bits_wanted"] = json_number(advice->bits_wanted);
-  for (const Prospect& prospect : advice->prospects) {
-    document["prospects"].push_back(Json::array(
-        {per_finger_json(advice->lengths(prospect)), json_number(prospect.placements), json_number(prospect.bits)}));
+  for (const ExpectedGain& gain : advice->gains) {
+    document["prospects"].push_back(
+        Json::array({per_finger_json(advice->lengths(gain)), json_number(gain.placements), json_number(gain.bits)}));
   }
   return document;
 }
 
 Json next_roll_json(const NextRoll& next) {
-  Json contenders = Json::array();
-  for (const Contender& contender : next.contenders) {
-    contenders.push_back({{"placement", contender.label},
-                          {"contact", per_finger_json(contender.place)},
-                          {"sd", per_finger_json(contender.sd)},
-                          {"probability", json_number(contender.probability)},
-                          {"turn", next.helps() ? json_number(next.turn_ahead(contender)) : Json(nullptr)}});
+  Json hypotheses = Json::array();
+  for (const Hypothesis& hypothesis : next.hypotheses) {
+    hypotheses.push_back({{"placement", hypothesis.label},
+                          {"contact", per_finger_json(hypothesis.place)},
+                          {"sd", per_finger_json(hypothesis.sd)},
+                          {"probability", json_number(hypothesis.probability)},
+                          {"turn", next.helps() ? json_number(next.turn_ahead(hypothesis)) : Json(nullptr)}});
   }
   return advice_json(next.answer.verdict.text(), {{"part", part_json(next.answer.part)}}, next.advice, next.why,
-                     contenders);
+                     hypotheses);
 }
 
 std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout layout) {
-  Json contenders = Json::array();
-  for (std::size_t k = 0; k < next.contenders.size(); ++k) {
-    const Contender& one = next.contenders[k];
-    contenders.push_back({{"placement", one.label},
+  Json hypotheses = Json::array();
+  for (std::size_t k = 0; k < next.hypotheses.size(); ++k) {
+    const Hypothesis& one = next.hypotheses[k];
+    hypotheses.push_back({{"placement", one.label},
                           {"contact", per_finger_json(one.place)},
                           {"sd", per_finger_json(one.sd)},
                           {"probability", json_number(one.probability)},
                           {"length", next.helps() ? json_number(next.travels[k]) : Json(nullptr)}});
   }
-  Json document = advice_json(held.verdict_text(), {{"part", part_json(held.part)}}, next.advice, next.why, contenders);
+  Json document = advice_json(held.verdict_text(), {{"part", part_json(held.part)}}, next.advice, next.why, hypotheses);
   document["pin"] = document["length"];
   document["length"] = nullptr;
   return layout == Layout::lines ? json_text(document) : json_line(document);

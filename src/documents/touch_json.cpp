@@ -174,8 +174,8 @@ std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, 
                    {"bits", nullptr},
                    {"roll", nullptr},
                    {"bits_wanted", json_number(next.bits_wanted)}};
-  if (!next.prospects.empty()) {
-    const TouchProspect& advised = next.advised();
+  if (!next.gains.empty()) {
+    const TouchGain& advised = next.advised();
     if (next.helps) {
       document["approach"] = {{"from", {advised.approach.from.x(), advised.approach.from.y()}},
                               {"direction", json_number(nearest_angle(advised.approach.direction))}};
@@ -194,7 +194,7 @@ std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, 
                 {"normal", one.hits ? json_number(one.normal) : Json(nullptr)},
                 {"travel", one.hits ? json_number(one.travel) : Json(nullptr)}};
   });
-  document["prospects"] = each_of(next.prospects, [](const TouchProspect& one) {
+  document["prospects"] = each_of(next.gains, [](const TouchGain& one) {
     return Json{one.approach.from.x(), one.approach.from.y(), one.approach.direction, json_number(one.poses),
                 json_number(one.bits)};
   });

@@ -29,8 +29,8 @@ Mode mode_of(const Placement& placement) {
 }
 
 /// What is known of the fingers at their first contacts, as `solve` has it.
-Contacts contacts_at(const Sample& first, const std::vector<Finger>& fingers) {
-  Contacts contacts{first.finger_curvature, {}, fingers};
+FingerGeometry contacts_at(const Sample& first, const std::vector<Finger>& fingers) {
+  FingerGeometry contacts{first.finger_curvature, {}, fingers};
   if (first.reading.fingers() != 2 || !first.contact) return contacts;
   contacts.facing = nearest_angle(facing(*finger_of(fingers, 0), (*first.contact)[0]) -
                                   facing(*finger_of(fingers, 1), (*first.contact)[1]));

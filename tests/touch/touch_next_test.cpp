@@ -40,7 +40,7 @@ TEST(TouchNext, WhereOnePoseIsLeftThereIsNothingToAdvise) {
   const NextTouch next = rollfix::next_touch(rollfix::solve(one.problem));
   EXPECT_FALSE(next.helps);
   EXPECT_EQ(next.why, "one pose is left");
-  EXPECT_TRUE(next.prospects.empty());
+  EXPECT_TRUE(next.gains.empty());
 }
 
 TEST(TouchNext, AfterOneTouchWithItsNormalSaysWhereTheNextOneTellsMost) {

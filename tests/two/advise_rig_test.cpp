@@ -85,7 +85,7 @@ TEST(AdviseRig, the_motion_that_is_advised_moves_the_jaws_contact_otherwise_from
   ASSERT_TRUE(next.helps()) << next.why;
   EXPECT_NEAR(next.advice->advised().placements, 1, 0.1);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(next.travels[k], travelled(held.part, next.contenders[k].place, next.advice->lengths()), 1e-3);
+    EXPECT_NEAR(next.travels[k], travelled(held.part, next.hypotheses[k].place, next.advice->lengths()), 1e-3);
     EXPECT_GT(std::abs(next.travels[k] - next.travels[(k + 1) % 3]), 1e-3);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 using cli::run;
 using rollfix::Advice;
 using rollfix::AdviceOptions;
-using rollfix::Contender;
+using rollfix::Hypothesis;
 using rollfix::Interval;
 using rollfix::Part;
 using rollfix::PerFinger;
@@ -23,18 +23,18 @@ using testing::HasSubstr;
 
 Part part_of(const std::string& shape) { return Part(rollfix::gallery(shape)); }
 
-std::vector<Contender> between(const std::vector<std::array<double, 2>>& pairs) {
-  std::vector<Contender> contenders;
+std::vector<Hypothesis> between(const std::vector<std::array<double, 2>>& pairs) {
+  std::vector<Hypothesis> hypotheses;
   for (const std::array<double, 2>& pair : pairs) {
-    contenders.push_back({pair, {0.0, 0.0}, 1.0 / static_cast<double>(pairs.size()), contenders.size()});
+    hypotheses.push_back({pair, {0.0, 0.0}, 1.0 / static_cast<double>(pairs.size()), hypotheses.size()});
   }
-  return contenders;
+  return hypotheses;
 }
 
 /// Straight from the outline's tangents.
-double turn(const Part& part, const Contender& contender, const PerFinger<double>& lengths) {
+double turn(const Part& part, const Hypothesis& hypothesis, const PerFinger<double>& lengths) {
   const auto by = [&](std::size_t k) {
-    const double from = contender.place[k];
+    const double from = hypothesis.place[k];
     return part.turning().angle(from + lengths[k]) - part.turning().angle(from);
   };
   return by(0) - by(1);
@@ -56,7 +56,7 @@ TEST(AdviseTwoFingers, on_a_circle_nothing_helps) {
 
 TEST(AdviseTwoFingers, a_roll_that_the_robot_can_not_do_is_not_advised) {
   const Part cam = part_of("cam");
-  const std::vector<Contender> two = between({{1, 4.5}, {2, 5}});
+  const std::vector<Hypothesis> two = between({{1, 4.5}, {2, 5}});
   AdviceOptions options;
   options.can_roll = [](const auto& /*from*/, const PerFinger<double>& by) {
     return std::abs(by[0]) < 1e-3 && std::abs(by[1]) < 1e-3;
@@ -85,26 +85,26 @@ TEST(AdviseTwoFingers, the_finger_whose_place_is_not_known_rolls_alone) {
 
 TEST(AdviseTwoFingers, where_both_are_not_known_the_advised_roll_tells_all_of_them) {
   const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
-  const std::vector<Contender> contenders = between({{0.8, 4.1}, {0.9, 0.5}, {1.2, 3.3}, {2.6, 3.75}, {5.3, 4.0}});
-  const Advice advice = advise(part, contenders);
+  const std::vector<Hypothesis> hypotheses = between({{0.8, 4.1}, {0.9, 0.5}, {1.2, 3.3}, {2.6, 3.75}, {5.3, 4.0}});
+  const Advice advice = advise(part, hypotheses);
   ASSERT_TRUE(advice.helps);
   EXPECT_NEAR(advice.advised().placements, 1, 0.2);
   std::size_t alike = 0;
-  for (const Contender& one : contenders) {
+  for (const Hypothesis& one : hypotheses) {
     EXPECT_NEAR(turn_ahead(part, one, advice.lengths()), turn(part, one, advice.lengths()), 1e-12);
-    for (const Contender& other : contenders) {
+    for (const Hypothesis& other : hypotheses) {
       alike += std::abs(turn(part, one, advice.lengths()) - turn(part, other, advice.lengths())) < 1e-5 ? 1 : 0;
     }
   }
-  EXPECT_LE(alike, contenders.size() + 2);
+  EXPECT_LE(alike, hypotheses.size() + 2);
 }
 
 TEST(AdviseTwoFingers, both_fingers_stay_within_the_travel) {
   AdviceOptions options;
   options.travel = Interval{-0.2, 0.3};
   const Advice advice = advise(part_of("limacon"), between({{1, 2}, {3, 5}}), options);
-  for (const rollfix::Prospect& prospect : advice.prospects) {
-    for (const double length : advice.lengths(prospect)) {
+  for (const rollfix::ExpectedGain& gain : advice.gains) {
+    for (const double length : advice.lengths(gain)) {
       EXPECT_GE(length, -0.2 - 1e-12);
       EXPECT_LE(length, 0.3 + 1e-12);
     }
@@ -116,9 +116,9 @@ TEST(AdviseTwoFingers, one_disk_does_not_roll_into_the_other) {
   AdviceOptions options;
   options.disks = PerFinger<double>(0.3, 0.3);
   options.turn_sd = 0.01;
-  const std::vector<Contender> contenders = between({{0.5, 2.0}, {0.7, 2.2}});
-  const Advice advice = advise(part, contenders, options);
-  for (const Contender& one : contenders) {
+  const std::vector<Hypothesis> hypotheses = between({{0.5, 2.0}, {0.7, 2.2}});
+  const Advice advice = advise(part, hypotheses, options);
+  for (const Hypothesis& one : hypotheses) {
     // On the straight side, where centres are as far apart as contacts.
     const double a = one.place[0] + advice.lengths()[0];
     const double b = one.place[1] + advice.lengths()[1];
@@ -134,12 +134,12 @@ TEST(AdviseTwoFingers, what_is_not_known_of_both_places_together_counts) {
   options.turn_sd = 0.02;
   options.travel = Interval{0, 0.2};
   const auto bits = [&](double covariance) {
-    std::vector<Contender> contenders = between({{1, 3}, {1.2, 3.3}});
-    for (Contender& one : contenders) {
+    std::vector<Hypothesis> hypotheses = between({{1, 3}, {1.2, 3.3}});
+    for (Hypothesis& one : hypotheses) {
       one.sd = PerFinger<double>(0.3, 0.3);
       one.covariance = covariance;
     }
-    return advise(part, contenders, options).prospects.back().bits;
+    return advise(part, hypotheses, options).gains.back().bits;
   };
   EXPECT_NE(bits(0.08), bits(-0.08));
 }
@@ -159,9 +159,9 @@ TEST(AdviseTwoFingers, the_program_says_which_finger_rolls_and_how_far) {
 }
 
 TEST(AdviseTwoFingers, places_of_one_and_pairs_of_places_do_not_go_together) {
-  std::vector<Contender> contenders = between({{1, 2}, {3, 5}});
-  contenders.push_back({1.0, 0.0, 0.1, 2});
-  EXPECT_THROW(advise(part_of("cam"), contenders), rollfix::InputError);
+  std::vector<Hypothesis> hypotheses = between({{1, 2}, {3, 5}});
+  hypotheses.push_back({1.0, 0.0, 0.1, 2});
+  EXPECT_THROW(advise(part_of("cam"), hypotheses), rollfix::InputError);
 }
 
 }  // namespace advise_two_fingers_test

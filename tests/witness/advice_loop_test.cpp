@@ -53,7 +53,7 @@ TEST_P(AdviceLoop, a_few_short_advised_rolls_leave_one_place) {
       how.length_sd = std::numbers::sqrt2 * options.noise.contact;
       how.length_share_sd = options.noise.slip;
       how.reach = &reach;
-      const Advice advice = advise(part, rollfix::contenders_of(part, belief.modes()), how);
+      const Advice advice = advise(part, rollfix::hypotheses_of(part, belief.modes()), how);
       if (!advice.helps) break;
       length = advice.advised().length;
       travel += std::abs(length) / P;

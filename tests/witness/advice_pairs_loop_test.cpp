@@ -80,7 +80,7 @@ Loop close_loop(const Part& part, const PerFinger<double>& start, bool advised, 
   std::uniform_real_distribution<double> any(-kRandomRoll, kRandomRoll);
   rollfix::BeliefOptions options;
   options.noise = {kContact * part.perimeter(), kAngle, 0, 0};
-  rollfix::Contacts contacts;
+  rollfix::FingerGeometry contacts;
   contacts.finger_curvature = PerFinger<double>(0.0, 0.0);
   Belief belief(part, rollfix::LogKind::travelled, options, contacts);
   Hand hand(part, start, seed);
@@ -99,7 +99,7 @@ Loop close_loop(const Part& part, const PerFinger<double>& start, bool advised, 
     if (loop.rolls == kMostRolls) return loop;
     PerFinger<double> next(any(random) * P, any(random) * P);
     if (advised) {
-      const Advice advice = advise(part, rollfix::contenders_of(part, belief.modes()), how(part));
+      const Advice advice = advise(part, rollfix::hypotheses_of(part, belief.modes()), how(part));
       if (!advice.helps) return loop;
       next = advice.lengths();
     }

@@ -161,7 +161,7 @@ TEST(TouchAdvice, ItsExpectedTouchesAreWhereASimulatedFingerStops) {
     const TouchAnswer answer = rollfix::solve(one.problem);
     if (answer.poses.size() < 2) continue;
     const NextTouch next = rollfix::next_touch(answer, {random_approach(part, one.truth, generator)});
-    ASSERT_EQ(next.prospects.size(), 1U);
+    ASSERT_EQ(next.gains.size(), 1U);
     double sum = 0;
     for (const ExpectedTouch& expected : next.expected) {
       const Stop stop = stop_of(part, expected.pose, radius, next.advised().approach);

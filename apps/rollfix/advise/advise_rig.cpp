@@ -22,7 +22,7 @@ std::string headline(const HoldAnswer& held, const NextPin& next) {
   const std::string verdict = held.verdict_text();
   if (!next.advice) return fmt::format("{}: {}\n", verdict, next.why);
   if (!next.helps()) return fmt::format("{}: no motion of the pin will tell them apart: {}\n", verdict, next.why);
-  const Prospect& advised = next.advice->advised();
+  const ExpectedGain& advised = next.advice->advised();
   const int decimals = decimals_for(held.part.perimeter());
   return fmt::format(
       "{}: move the pin by {} along the jaw{} and {} away from it{}: {:.2f} placements are expected to remain, {:.2f} "
@@ -40,8 +40,8 @@ std::string table_of(const HoldAnswer& held, const NextPin& next) {
   for (const char* title : {"jaw now", "wheel now"}) table.add_column(title_in(title, held.part.unit()));
   table.add_column("probability");
   table.add_column(title_in("length to expect", held.part.unit()));
-  for (std::size_t k = 0; k < next.contenders.size(); ++k) {
-    const Contender& one = next.contenders[k];
+  for (std::size_t k = 0; k < next.hypotheses.size(); ++k) {
+    const Hypothesis& one = next.hypotheses[k];
     table.add_row({std::to_string(one.label), fixed(one.place[0], decimals), fixed(one.place[1], decimals),
                    fmt::format("{:.4f}", one.probability), fixed(next.travels[k], decimals)});
   }

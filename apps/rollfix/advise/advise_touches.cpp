@@ -39,7 +39,7 @@ Approach read_approach(const std::string& text, const std::string& unit) {
 
 std::string headline(const TouchAnswer& answer, const NextTouch& next) {
   if (!next.helps) return fmt::format("{}: {}\n", answer.verdict_text(), next.why);
-  const TouchProspect& advised = next.advised();
+  const TouchGain& advised = next.advised();
   const int decimals = decimals_for(answer.part.perimeter());
   const bool any_are_listed = !next.expected.empty();
   return fmt::format("{}: from x {}, y {}{} go in direction {} deg until it touches: {}{:.2f} of {:.2f} bits gained\n",

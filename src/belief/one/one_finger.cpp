@@ -77,7 +77,7 @@ struct OneFingersGrid {
 
 class OneFingersPosterior : public Posterior {
  public:
-  OneFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts)
+  OneFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts)
       : part_(part), kind_(kind), options_(options), contacts_(contacts) {}
 
   void add(const Sample& sample) override {
@@ -187,7 +187,7 @@ class OneFingersPosterior : public Posterior {
   Part part_;
   LogKind kind_;
   BeliefOptions options_;
-  Contacts contacts_;
+  FingerGeometry contacts_;
   std::optional<OneFingersGrid> state_;
   std::optional<Sample> first_;  // until it is known how long it took
   Row last_;
@@ -198,7 +198,7 @@ class OneFingersPosterior : public Posterior {
 }  // namespace
 
 std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, const BeliefOptions& options,
-                                            const Contacts& contacts) {
+                                            const FingerGeometry& contacts) {
   return std::make_unique<OneFingersPosterior>(part, kind, options, contacts);
 }
 

@@ -52,7 +52,7 @@ void let_part_be_off(std::vector<PairNode>& nodes, const PairErrors& errors) {
 
 class TwoFingersPosterior : public Posterior {
  public:
-  TwoFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts)
+  TwoFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts)
       : part_(part),
         kind_(kind),
         options_(options),
@@ -256,7 +256,7 @@ class TwoFingersPosterior : public Posterior {
   Part part_;
   LogKind kind_;
   BeliefOptions options_;
-  Contacts contacts_;
+  FingerGeometry contacts_;
   PairErrors errors_;
   std::array<TiltedBoundary, 2> boundary_;
   TurningRange range_;
@@ -349,7 +349,7 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
 }  // namespace
 
 std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
-                                            const Contacts& contacts) {
+                                            const FingerGeometry& contacts) {
   return std::make_unique<TwoFingersPosterior>(part, kind, options, contacts);
 }
 

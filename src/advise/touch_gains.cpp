@@ -1,4 +1,4 @@
-#include "advise/touch_prospects.hpp"
+#include "advise/touch_gains.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ double variance_of(const LikelyPose& one, const NearestOfPart& nearest) {
 
 }  // namespace
 
-TouchProspects::TouchProspects(PartInPoses& lying)
+TouchGains::TouchGains(PartInPoses& lying)
     : lying_(lying), answer_(lying.answer()), poses_(lying.poses()), part_(lying.part()) {
   has_normals_ = std::any_of(answer_.touches.begin(), answer_.touches.end(),
                              [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
@@ -59,7 +59,7 @@ TouchProspects::TouchProspects(PartInPoses& lying)
   for (const LikelyPose& one : poses_) share_of_set_.push_back(one.weight / of_set[one.placement]);
 }
 
-std::vector<Forecast> TouchProspects::forecasts(const Approach& approach) {
+std::vector<Forecast> TouchGains::forecasts(const Approach& approach) {
   std::vector<Forecast> result;
   for (const LikelyPose& one : poses_) result.push_back(forecast(approach, one));
   return result;
@@ -67,9 +67,9 @@ std::vector<Forecast> TouchProspects::forecasts(const Approach& approach) {
 
 /// `apart(a, b, j)`: how far the touch in pose a is from what pose j would have, b.
 template <class Apart>
-TouchProspect TouchProspects::prospect(const Approach& approach, const Apart& apart) {
+TouchGain TouchGains::gain(const Approach& approach, const Apart& apart) {
   const std::vector<Forecast> all = forecasts(approach);
-  TouchProspect result{approach};
+  TouchGain result{approach};
   for (std::size_t i = 0; i < all.size(); ++i) {
     double weight = 0;  // that the poses have once the touch is made, if i is the true one
     double remain = 0;
@@ -86,26 +86,26 @@ TouchProspect TouchProspects::prospect(const Approach& approach, const Apart& ap
   return result;
 }
 
-TouchProspect TouchProspects::rough(const Approach& approach) {
-  return prospect(approach,
-                  [&](const Forecast& one, const Forecast& other, std::size_t) { return square_apart(one, other); });
+TouchGain TouchGains::rough(const Approach& approach) {
+  return gain(approach,
+              [&](const Forecast& one, const Forecast& other, std::size_t) { return square_apart(one, other); });
 }
 
-TouchProspect TouchProspects::close(const Approach& approach) {
-  return prospect(approach, [&](const Forecast& one, const Forecast& other, std::size_t j) {
+TouchGain TouchGains::close(const Approach& approach) {
+  return gain(approach, [&](const Forecast& one, const Forecast& other, std::size_t j) {
     const double square = square_apart(one, other);
     return one.touch.hits && square > 0 ? std::min(square, square_off(one, poses_[j])) : square;
   });
 }
 
-double TouchProspects::bits_wanted() const {
+double TouchGains::bits_wanted() const {
   double bits = 0;
   for (const LikelyPose& one : poses_) bits -= one.weight * std::log2(one.weight);
   return bits;
 }
 
 /// What is nearest to a place of the world, in a pose; directions and places as the world sees them, about the part.
-NearestOfPart TouchProspects::nearest_in(const LikelyPose& one, const Vec2& at) {
+NearestOfPart TouchGains::nearest_in(const LikelyPose& one, const Vec2& at) {
   NearestOfPart nearest = part_.nearest(lying_.in_part(one, at));
   nearest.away = lying_.turned(one, nearest.away);
   nearest.contact = lying_.turned(one, nearest.contact);
@@ -113,7 +113,7 @@ NearestOfPart TouchProspects::nearest_in(const LikelyPose& one, const Vec2& at) 
 }
 
 /// No side's is larger.
-double TouchProspects::most_variance_of(const LikelyPose& one) const {
+double TouchGains::most_variance_of(const LikelyPose& one) const {
   const double by_place = std::sqrt(one.covariance.topLeftCorner<2, 2>().trace());
   const double by_turn = std::sqrt(one.covariance(2, 2)) * lying_.farthest();
   return (by_place + by_turn) * (by_place + by_turn);
@@ -121,7 +121,7 @@ double TouchProspects::most_variance_of(const LikelyPose& one) const {
 
 /// Of the normal, from the pose's heading, and as a touch may as well have been a little further along the side: by
 /// how much its normal turns there.
-double TouchProspects::turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const {
+double TouchGains::turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const {
   const bool is_corner = std::isinf(nearest.curvature);
   const double radius = answer_.radius;
   const double bend = is_corner ? 1 / radius : std::abs(nearest.curvature / (1 + nearest.curvature * radius));
@@ -129,7 +129,7 @@ double TouchProspects::turn_variance_of(const LikelyPose& one, const NearestOfPa
 }
 
 /// The squares of a touch's residuals in another pose.
-double TouchProspects::square_off(const Forecast& made, const LikelyPose& one) {
+double TouchGains::square_off(const Forecast& made, const LikelyPose& one) {
   const Interval distance = part_.between(lying_.in_part(one, made.touch.at));
   const double least = std::max({distance.lo - answer_.radius, answer_.radius - distance.hi, 0.0});
   const double quick = least * least / (place_sd_ * place_sd_ + made.variance + most_variance_of(one));
@@ -141,14 +141,14 @@ double TouchProspects::square_off(const Forecast& made, const LikelyPose& one) {
                    made.turn_variance + turn_variance_of(one, nearest));
 }
 
-double TouchProspects::square_of(double place, double variance, double turn, double turn_variance) const {
+double TouchGains::square_of(double place, double variance, double turn, double turn_variance) const {
   double square = place * place / (place_sd_ * place_sd_ + variance);
   if (has_normals_ && turn_sd_ > 0) square += turn * turn / (turn_sd_ * turn_sd_ + turn_variance);
   return square;
 }
 
 /// Goes by how far the part is, until it touches or is past.
-Forecast TouchProspects::forecast(const Approach& approach, const LikelyPose& one) {
+Forecast TouchGains::forecast(const Approach& approach, const LikelyPose& one) {
   Forecast result;
   result.touch = {one.placement, one.weight, one.pose};
   const Vec2 along(std::cos(approach.direction), std::sin(approach.direction));
@@ -182,8 +182,8 @@ Forecast TouchProspects::forecast(const Approach& approach, const LikelyPose& on
   return result;
 }
 
-void TouchProspects::touches(const LikelyPose& one, const Vec2& along, const NearestOfPart& nearest,
-                             Forecast& result) const {
+void TouchGains::touches(const LikelyPose& one, const Vec2& along, const NearestOfPart& nearest,
+                         Forecast& result) const {
   result.touch.hits = true;
   result.touch.normal = std::atan2(nearest.away.y(), nearest.away.x());
   result.incidence = std::max(kLeastIncidence, -along.dot(nearest.away));
@@ -191,7 +191,7 @@ void TouchProspects::touches(const LikelyPose& one, const Vec2& along, const Nea
   result.turn_variance = turn_variance_of(one, nearest);
 }
 
-double TouchProspects::square_apart(const Forecast& a, const Forecast& b) const {
+double TouchGains::square_apart(const Forecast& a, const Forecast& b) const {
   if (a.touch.hits != b.touch.hits) return std::numeric_limits<double>::infinity();
   if (!a.touch.hits) return 0;
   const double place = (a.touch.travel - b.touch.travel) * std::min(a.incidence, b.incidence);

@@ -16,24 +16,24 @@ struct Forecast {
 };
 
 /// What a touch would be in each pose of a part, and what it would tell of them.
-class TouchProspects {
+class TouchGains {
  public:
-  explicit TouchProspects(PartInPoses& lying);
+  explicit TouchGains(PartInPoses& lying);
 
   std::vector<Forecast> forecasts(const Approach& approach);
 
   /// By how far the finger goes in each pose: quick, and right where no other side of the part is near.
-  TouchProspect rough(const Approach& approach);
+  TouchGain rough(const Approach& approach);
 
   /// By how well the touch that one pose leads to fits the other one, on whatever side of it.
-  TouchProspect close(const Approach& approach);
+  TouchGain close(const Approach& approach);
 
   /// Until one pose is left.
   double bits_wanted() const;
 
  private:
   template <class Apart>
-  TouchProspect prospect(const Approach& approach, const Apart& apart);
+  TouchGain gain(const Approach& approach, const Apart& apart);
   NearestOfPart nearest_in(const LikelyPose& one, const Vec2& at);
   double most_variance_of(const LikelyPose& one) const;
   double turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const;

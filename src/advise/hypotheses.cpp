@@ -10,18 +10,18 @@
 namespace rollfix {
 namespace {
 
-// A wide placement is this many contenders.
+// A wide placement is this many hypotheses.
 constexpr std::size_t kOfAWidePlacement = 15;
 // One is wide from this share of the perimeter on.
 constexpr double kWidePlacement = 1e-3;
-// A mode is wide from this standard deviation on, a share of the perimeter: it is this many contenders then, at the
+// A mode is wide from this standard deviation on, a share of the perimeter: it is this many hypotheses then, at the
 // quantiles 1/14, 3/14, ... of a normal distribution.
 constexpr double kWideSpread = 0.005;
 constexpr std::array<double, 7> kSevenDeviates = {-1.465, -0.792, -0.366, 0, 0.366, 0.792, 1.465};
 
 /// All alike; of one finger's wide ones several.
-std::vector<Contender> without_noise(const Part& part, const std::vector<Placement>& placements) {
-  std::vector<Contender> contenders;
+std::vector<Hypothesis> without_noise(const Part& part, const std::vector<Placement>& placements) {
+  std::vector<Hypothesis> hypotheses;
   for (std::size_t k = 0; k < placements.size(); ++k) {
     const Interval& extent = placements[k].extent[0];
     const PerFinger<double>& end = placements[k].end;
@@ -29,20 +29,20 @@ std::vector<Contender> without_noise(const Part& part, const std::vector<Placeme
     const double rolled = end[0] - placements[k].start[0];
     // Of two fingers a wide one is a curve in the plane of both places: the box around it says little of where.
     if (end.size() == 2 || extent.width() < kWidePlacement * part.perimeter()) {
-      contenders.push_back({end, PerFinger<double>::of(end.size()), share, k});
+      hypotheses.push_back({end, PerFinger<double>::of(end.size()), share, k});
       continue;
     }
     for (std::size_t i = 0; i < kOfAWidePlacement; ++i) {
       const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(kOfAWidePlacement);
       const double s = extent.lo + t * extent.width() + rolled;
-      contenders.push_back({part.boundary().on_first_lap(s), 0, share / static_cast<double>(kOfAWidePlacement), k});
+      hypotheses.push_back({part.boundary().on_first_lap(s), 0, share / static_cast<double>(kOfAWidePlacement), k});
     }
   }
-  return contenders;
+  return hypotheses;
 }
 
 /// Of two fingers, along the direction in which they are known worst: as many pairs of places of the same probability.
-void add_along_ridge(const Part& part, const Contender& whole, std::vector<Contender>& contenders) {
+void add_along_ridge(const Part& part, const Hypothesis& whole, std::vector<Hypothesis>& hypotheses) {
   Mat2 covariance;
   covariance << whole.sd[0] * whole.sd[0], whole.covariance, whole.covariance, whole.sd[1] * whole.sd[1];
   Eigen::SelfAdjointEigenSolver<Mat2> axes;  // the larger one last
@@ -53,7 +53,7 @@ void add_along_ridge(const Part& part, const Contender& whole, std::vector<Conte
   // What is left within each of them: as much less along the ridge as there are of them.
   const Mat2 within = covariance - (1 - 1 / (kPieces * kPieces)) * along * along * axis * axis.transpose();
   for (const double deviate : kSevenDeviates) {
-    Contender one = whole;
+    Hypothesis one = whole;
     one.probability /= kPieces;
     one.covariance = within(0, 1);
     for (const std::size_t finger : {0U, 1U}) {
@@ -61,7 +61,7 @@ void add_along_ridge(const Part& part, const Contender& whole, std::vector<Conte
       one.place[finger] = part.boundary().base(whole.place[finger] + deviate * along * axis(k));
       one.sd[finger] = std::sqrt(std::max(0.0, within(k, k)));
     }
-    contenders.push_back(one);
+    hypotheses.push_back(one);
   }
 }
 
@@ -75,39 +75,39 @@ double covariance_now(const Remaining& one) {
 
 /// `Remaining`: a placement or a mode, of which the samples say how probable it is.
 template <class Remaining>
-std::vector<Contender> with_noise(const Part& part, const std::vector<Remaining>& all) {
-  std::vector<Contender> contenders;
+std::vector<Hypothesis> with_noise(const Part& part, const std::vector<Remaining>& all) {
+  std::vector<Hypothesis> hypotheses;
   double total = 0;
   for (const Remaining& one : all) total += one.probability;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const Contender whole{all[k].end_mean, all[k].end_sd, all[k].probability / total, k, covariance_now(all[k])};
+    const Hypothesis whole{all[k].end_mean, all[k].end_sd, all[k].probability / total, k, covariance_now(all[k])};
     double widest = 0;
     for (const double sd : whole.sd) widest = std::max(widest, sd);
     if (widest < kWideSpread * part.perimeter()) {
-      contenders.push_back(whole);
+      hypotheses.push_back(whole);
       continue;
     }
     if (whole.sd.size() == 2) {
-      add_along_ridge(part, whole, contenders);
+      add_along_ridge(part, whole, hypotheses);
       continue;
     }
     // As many places of the same probability, as if it were normal.
     for (const double deviate : kSevenDeviates) {
       const double place = part.boundary().base(whole.place[0] + deviate * whole.sd[0]);
-      contenders.push_back({place, whole.sd[0] / kSevenDeviates.size(), whole.probability / kSevenDeviates.size(), k});
+      hypotheses.push_back({place, whole.sd[0] / kSevenDeviates.size(), whole.probability / kSevenDeviates.size(), k});
     }
   }
-  return contenders;
+  return hypotheses;
 }
 
 }  // namespace
 
-std::vector<Contender> contenders_of(const Part& part, const std::vector<Placement>& placements) {
+std::vector<Hypothesis> hypotheses_of(const Part& part, const std::vector<Placement>& placements) {
   const bool has_noise = !placements.empty() && !std::isnan(placements.front().probability);
   return has_noise ? with_noise(part, placements) : without_noise(part, placements);
 }
 
-std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes) {
+std::vector<Hypothesis> hypotheses_of(const Part& part, const std::vector<Mode>& modes) {
   return with_noise(part, modes);
 }
 
