@@ -1,4 +1,5 @@
-// The laws of the search, each on random outlines of every kind, one finger and two by the same words.
+// The laws of the search, each on random outlines of every kind, one finger and two by the same words. Their numbers are
+// those of rollfix/locate.hpp.
 
 #include "laws.hpp"
 
@@ -16,6 +17,7 @@ using namespace laws;
 
 double any_share() { return *rc::gen::inRange(1, 100) / 100.0; }
 
+// Law (1)
 RC_GTEST_PROP(Laws, the_truth_that_made_the_readings_is_among_the_answers, ()) {
   const Asked asked = *any_asked();
   const Part part = asked.part();
@@ -32,6 +34,7 @@ RC_GTEST_PROP(Laws, the_truth_that_made_the_readings_is_among_the_answers, ()) {
   }));
 }
 
+// Law (2)
 RC_GTEST_PROP(Laws, moving_and_turning_the_part_changes_nothing, ()) {
   const Asked asked = *any_asked();
   Asked moved = asked;
@@ -39,6 +42,7 @@ RC_GTEST_PROP(Laws, moving_and_turning_the_part_changes_nothing, ()) {
   expect_same(asked, moved, {});
 }
 
+// Law (3)
 RC_GTEST_PROP(Laws, scaling_the_part_scales_the_places, ()) {
   const Asked asked = *any_asked();
   const double factor = std::pow(10.0, *rc::gen::inRange(-9, 10));
@@ -53,6 +57,7 @@ RC_GTEST_PROP(Laws, scaling_the_part_scales_the_places, ()) {
   expect_same(asked, scaled, map);
 }
 
+// Law (4)
 RC_GTEST_PROP(Laws, mirroring_the_part_mirrors_the_places, ()) {
   const Asked asked = *any_asked();
   Asked mirrored = asked;
@@ -65,6 +70,7 @@ RC_GTEST_PROP(Laws, mirroring_the_part_mirrors_the_places, ()) {
   expect_same(asked, mirrored, map);
 }
 
+// Law (5)
 RC_GTEST_PROP(Laws, the_direction_in_which_a_closed_outline_was_drawn_changes_nothing, ()) {
   const Asked asked = *any_asked();
   RC_PRE(asked.outline.closed);
@@ -73,6 +79,7 @@ RC_GTEST_PROP(Laws, the_direction_in_which_a_closed_outline_was_drawn_changes_no
   expect_same(asked, other_way, {});
 }
 
+// Law (6)
 RC_GTEST_PROP(Laws, other_parameters_of_the_same_curves_change_nothing, ()) {
   const Asked asked = *any_asked();
   Asked paced = asked;
@@ -82,6 +89,7 @@ RC_GTEST_PROP(Laws, other_parameters_of_the_same_curves_change_nothing, ()) {
 }
 
 /// As a drawing has arcs that are written as splines: equal curvatures differ in their last digits.
+// Law (6)
 TEST(Laws, arcs_that_are_general_curves_leave_the_stretches_that_arcs_leave) {
   Asked asked{"stadium",
               gallery("stadium,length=0.22358097378897623,r=0.7205602027664347"),
@@ -96,6 +104,7 @@ TEST(Laws, arcs_that_are_general_curves_leave_the_stretches_that_arcs_leave) {
   expect_same(asked, general, {});
 }
 
+// Law (6)
 RC_GTEST_PROP(Laws, cutting_the_curves_changes_nothing, ()) {
   const Asked asked = *any_asked();
   Asked finer = asked;
@@ -103,6 +112,7 @@ RC_GTEST_PROP(Laws, cutting_the_curves_changes_nothing, ()) {
   expect_same(asked, finer, {});
 }
 
+// Law (7)
 RC_GTEST_PROP(Laws, another_first_point_shifts_the_places, ()) {
   const Asked asked = *any_asked();
   RC_PRE(asked.outline.closed);
@@ -114,6 +124,7 @@ RC_GTEST_PROP(Laws, another_first_point_shifts_the_places, ()) {
   expect_same(asked, elsewhere, map);
 }
 
+// Law (8)
 RC_GTEST_PROP(Laws, the_order_of_readings_does_not_matter, ()) {
   const Asked asked = *any_asked();
   Asked ordered = asked;
@@ -121,6 +132,7 @@ RC_GTEST_PROP(Laws, the_order_of_readings_does_not_matter, ()) {
   expect_same(asked, ordered, {});
 }
 
+// Law (9)
 RC_GTEST_PROP(Laws, swapping_the_fingers_swaps_the_places, ()) {
   const Asked asked = *any_asked_of(2);
   Asked swapped = asked;
@@ -131,6 +143,7 @@ RC_GTEST_PROP(Laws, swapping_the_fingers_swaps_the_places, ()) {
   expect_same(asked, swapped, map);
 }
 
+// Law (10)
 RC_GTEST_PROP(Laws, rolling_back_starts_where_the_roll_ended, ()) {
   const Asked asked = *rc::gen::oneOf(any_asked(1, 1, false), any_asked(2, 1, true));
   const Reading there = asked.readings.front();
@@ -144,6 +157,7 @@ RC_GTEST_PROP(Laws, rolling_back_starts_where_the_roll_ended, ()) {
 }
 
 /// A roll in two steps is a reading after each: what fits both is where what fits one and what fits the other meet.
+// Law (11)
 RC_GTEST_PROP(Laws, a_reading_on_the_way_leaves_what_fits_both, ()) {
   const Asked asked = *any_asked(1, 2, false);
   const Part part = asked.part();

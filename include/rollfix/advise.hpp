@@ -1,5 +1,16 @@
 #pragma once
 
+// Which contact to make next where several places, or poses, are left.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1.5");
+//     const Answer answer = solve({part, Reading(1.0, 0.6)});
+//     const NextRoll next = next_roll(answer);
+//     next.helps();  // true
+//
+// Degenerate cases: where no roll tells the places apart, as by symmetry, `helps` is false and `why` says so.
+//
+// Accuracy: bits and places that remain are expectations over the places that are left, given their probabilities.
+
 #include <array>
 #include <cstddef>
 #include <functional>

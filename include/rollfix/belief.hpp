@@ -1,5 +1,20 @@
 #pragma once
 
+// The estimate alone: the posterior of the first contact over the boundary, sample by sample.
+//
+//     const Part part = load_part("gallery:spline,n=9,seed=7,wobble=0.2");
+//     Belief belief(part, LogKind::increments, {.noise = {.angle = 0.003, .slip = 0.002}});
+//     belief.add(Reading(1.0, 0.9937));
+//     belief.modes().size();  // 6
+//     belief.add(Reading(1.95, 2.2898));  // of the same roll, later
+//     belief.modes().size();  // 1
+//
+// Degenerate cases: on a circle every place stays as probable; a sample that no place explains makes `fit` bad and all
+// modes wide, never none.
+//
+// Accuracy: where the posterior has a closed form it agrees (tests/belief_closed_forms_test.cpp); docs/calibration.md
+// has how often intervals hold the truth.
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>

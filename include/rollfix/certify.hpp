@@ -1,5 +1,19 @@
 #pragma once
 
+// An answer with all that a proof of it needs, which `rollfix-verify` checks without this library:
+// docs/certificates.md.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1");
+//     const Certificate certificate = certify(part, {Reading(1.0, 0.5)});
+//     certificate.is_complete();        // true
+//     certificate.placements.size();    // 4
+//
+// Degenerate cases: what can't be proved within the budget is `unproved`, or `unresolved`, and `is_complete()` is
+// false. Rolls of two readings at a double root can end so: docs/certificates.md.
+//
+// Accuracy: claims hold for the outline's formulas in exact arithmetic, within the stated tolerance; the verifier
+// computes in balls of 128 bits.
+
 #include <array>
 #include <cstddef>
 #include <optional>

@@ -1,5 +1,12 @@
 #pragma once
 
+// Points, and curves by formulas with their first three derivatives.
+//
+//     const Curve arc(Arc({0, 0}, 2.0, 0.0, 1.0));
+//     curvature(arc.jet(0.3));  // 0.5
+//
+// Degenerate cases: a curve with a speed of 0 has no curvature there; a Part of it is refused.
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <Eigen/Core>

@@ -1,5 +1,14 @@
 #pragma once
 
+// The JSON documents that the program prints with --json, as text: docs/json.md lists their fields.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1");
+//     const Answer answer = solve({part, Reading(1.0, 0.5)});
+//     const std::string text = format_answer(answer, Layout::line);
+//     text.find("rollfix/locate/1") != std::string::npos;  // true
+//
+// Numbers are written with as many digits as bring each bit back; what is not known is null.
+
 #include <string>
 
 #include "rollfix/advise.hpp"

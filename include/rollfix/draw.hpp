@@ -1,5 +1,13 @@
 #pragma once
 
+// Figures of parts, answers, advice and plans, as SVG, PNG or PDF.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1");
+//     const Svg figure = draw_answer(solve({part, Reading(1.0, 0.5)}));
+//     encode(figure, FigureFormat::svg).substr(0, 5);  // "<?xml"
+//
+// PNG and PDF need librsvg when they are written; without it they are an InputError.
+
 #include <cstddef>
 #include <filesystem>
 #include <limits>

@@ -1,5 +1,18 @@
 #pragma once
 
+// Parts from files: DXF, SVG, points, saved parts. Lengths are in the drawing's unit, or in the one that is asked for.
+//
+//     const LoadedPart loaded = load_part("examples/bracket.dxf", {.loop = 1});
+//     loaded.unit;                                  // "mm"
+//     loaded.loops.size();                          // 2
+//     std::round(10 * loaded.part.perimeter()) / 10;  // 252.5
+//
+// Degenerate cases: open chains, gaps, loops within loops, curves that cross: each is joined, chosen or refused, and
+// `notes` or the error says which and where (docs/files.md).
+//
+// Accuracy: curves are kept as drawn, arcs as arcs and splines as splines; a saved part answers with the same bits as
+// the one that was saved.
+
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -1,5 +1,17 @@
 #pragma once
 
+// What touches the part: a disk, a flat jaw, or any convex outline. Of a disk u is an angle, of all others an arc
+// length along their own boundary.
+//
+//     const Finger finger = disk(0.2);
+//     const Contact first{0.1, 0.0}, last{-4.9, 1.2};  // u, psi: radians
+//     const Reading reading = reading_between(finger, first, last);
+//     reading.length[0];  // 1
+//     reading.turn;       // -3.8
+//
+// Degenerate cases: on a corner of a finger the normal is not known by u; Reading::pivot says by how much. A jaw has no
+// ends; an open outline has.
+
 #include <limits>
 #include <memory>
 #include <optional>

@@ -1,5 +1,20 @@
 #pragma once
 
+// Several fingers that hold and roll on a part that moves: docs/two_fingers.md, "Three and more fingers"; a finger with
+// skin beside a wheel without: docs/rig.md.
+//
+//     HoldProblem problem{load_part("gallery:cam")};
+//     problem.logs = {read_log("examples/rig-jaw.csv")};
+//     problem.fingers = {jaw()};
+//     problem.wheels = {{read_pin_log("examples/rig-pin.csv"), 0.4}};
+//     problem.noise = Noise{.contact = 0.01, .angle = 0.005, .position = 0.01};
+//     solve(problem).verdict_text();  // "unique"
+//
+// Degenerate cases: fingers on parallel sides leave a continuum; logs in which nothing moves tell what touches at one
+// instant would.
+//
+// Accuracy: docs/rig.md and docs/two_fingers.md have how often the true places are listed, and in their intervals.
+
 #include <array>
 #include <cstddef>
 #include <limits>

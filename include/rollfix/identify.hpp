@@ -1,5 +1,20 @@
 #pragma once
 
+// Many parts in one SQLite file, and which of them a roll or touches fit: docs/identify.md has the tables.
+//
+//     const std::string path = (std::filesystem::temp_directory_path() / "two-parts.rollfix").string();
+//     build_catalog(path, {{"gallery:ellipse,a=2,b=1", "ellipse"}, {"gallery:circle,r=1", "circle"}});
+//     const Catalog catalog(path);
+//     Problem asked{any_part_of(catalog), Reading(1.0, 0.5)};
+//     asked.tolerance = 1e-6;
+//     identify(catalog, asked).verdict;  // "unique part, 4 places"
+//
+// Degenerate cases: parts that no roll can tell apart are listed as congruent; while more than `most_searched` remain
+// they are only counted.
+//
+// Accuracy: of each part the answer is that of `solve` of this part alone, to the bit; bounds only leave out parts on
+// which nothing fits.
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,16 @@
 #pragma once
 
+// Facts of a part: how large, how curved, how ambiguous rolls on it are, where a finger can touch it.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1");
+//     symmetry(part);                             // 2
+//     std::isinf(largest_disk(part));             // true
+//     std::round(1e6 * curvature_range(part).hi); // 2e+06
+//
+// Degenerate cases: a circle has symmetry 0; a part with a concave corner lets no disk touch everywhere.
+//
+// Accuracy: `ambiguity` is a sample, of as many rolls as it says; all else follows the outline's formulas.
+
 #include <cstddef>
 #include <optional>
 #include <vector>

@@ -1,5 +1,34 @@
 #pragma once
 
+// The search alone: from readings to all placements, with what the library promises about them.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1");
+//     const Search found = locate(part, Reading(1.0, 0.5));
+//     found.status == Status::complete;  // true
+//     found.placements.size();           // 4
+//     found.placements[0].residual < 1e-9;  // true
+//
+// Laws, which tests/laws_test.cpp checks on random parts by these numbers:
+//   (1) The start that made the readings is among the placements.
+//   (2) To move or turn the part changes no placement.
+//   (3) To scale the part by c, and all lengths, scales every place by c.
+//   (4) To mirror the part, and to reverse the readings, mirrors every place.
+//   (5) The direction in which a closed outline was drawn changes nothing.
+//   (6) Other parameters of the same curves change nothing; neither does cutting them.
+//   (7) Another first point shifts every place by as much.
+//   (8) The order of the readings does not matter.
+//   (9) To swap two fingers swaps their places.
+//   (10) The roll backwards starts where the roll ended.
+//   (11) One more reading of the same roll leaves only placements that were there before.
+//
+// Degenerate cases, by Kind: `touching` is a double root or a near miss, whose `error` is infinite and whose `extent`
+// says how far; `stretch` a continuum, as on a circle; `corner` a pivot at a convex corner.
+//
+// Accuracy (docs/search.md, "ACCURACY"):
+//   a simple root      |start - root| <= error, the larger of 1e-9 P and 4e-12 rad / |kappa(t) - kappa(s)|
+//   an extent's end    1e-9 P, or where f is nearly straight 2e-3 of its width
+//   Theta(s)           1e-12 rad
+
 #include <Eigen/Core>
 #include <cstddef>
 #include <limits>

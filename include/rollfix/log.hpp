@@ -1,5 +1,14 @@
 #pragma once
 
+// What sensors wrote, as a table or row by row, and the readings that it means: docs/rolling.md, "Logs".
+//
+//     const Log log = parse_log("time,u,psi\n0,0.1,0\n1,-0.9,0.7\n", "two rows");
+//     const Reading reading = readings_as_given(log, {disk(0.2)}).back();
+//     reading.length[0];  // 0.2
+//
+// Degenerate cases: a cell that is no number, a row that jumps, time that does not grow: an InputError with the file,
+// the line and the value. Angles that wrap are unwrapped, which is refused where a step may be half a turn.
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <array>

@@ -1,5 +1,15 @@
 #pragma once
 
+// The paper's own algorithms, by numerical integration: the reference that the faster search is compared with.
+//
+//     const march::March march(load_outline("gallery:limacon"), march::curvature_density());
+//     march.segments(1.0, 0.5).segments.size();  // 2
+//
+// Degenerate cases: corners, lines, arcs and continua are a Refusal with its Reason; `rollfix::locate` handles them.
+//
+// Accuracy: each segment's `error` is its estimated distance to the root; docs/march.md has counted steps and two holes
+// of the algorithm.
+
 #include <cstddef>
 #include <functional>
 #include <memory>

@@ -1,5 +1,14 @@
 #pragma once
 
+// What bounds a part: curves in order, from points, formulas, the gallery or drawings.
+//
+//     const Outline outline = outline_through({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, "mine", {.corner_angle = 0.5});
+//     outline.curves.size();      // 4
+//     check(outline).empty();     // true
+//
+// Degenerate cases: repeated points, two points, curves that don't meet: an InputError or a line of `check` that says
+// where.
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <cstddef>

@@ -1,5 +1,23 @@
 #pragma once
 
+// How two fingers have to move so that both roll on a part in between as far as is asked, and which condition fails if
+// they can't: docs/plan.md.
+//
+//     PlanProblem problem{load_part("gallery:ellipse,a=2,b=1")};
+//     problem.fingers[0].finger = disk(0.3);
+//     problem.fingers[1].finger = disk(0.3);
+//     problem.fingers[0].start = 0.0;
+//     problem.fingers[1].start = problem.part.perimeter() / 2;
+//     problem.fingers[0].length = 0.2;
+//     problem.fingers[0].friction = problem.fingers[1].friction = 0.5;
+//     const Plan plan = solve(problem);
+//     plan.decided;  // true
+//
+// Degenerate cases: contacts that can't squeeze the part, or a finger that would have to pass a corner, fail a
+// condition, which `margins` names with the time and the row.
+//
+// Accuracy: conditions are proved between the rows as well where `proved` says so; else they hold in many instants.
+
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -1,5 +1,14 @@
 #pragma once
 
+// To stop what takes long, or to show that it goes on.
+//
+//     std::size_t beats = 0;
+//     {
+//       const Pulse pulse([&](const char*) { ++beats; });  // of this thread; what it throws ends the computation
+//       solve({load_part("gallery:ellipse,a=2,b=1"), Reading(1.0, 0.5)});
+//     }
+//     Pulse::current() == nullptr;  // true
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <chrono>

@@ -1,5 +1,15 @@
 #pragma once
 
+// One question for all kinds of contacts: the library knows which search answers it.
+//
+//     Measurements measured;
+//     measured.readings = {Reading(1.0, 0.5)};
+//     Question question(load_part("gallery:ellipse,a=2,b=1"), measured);
+//     solve(question).verdict_text();  // "ambiguous (4)"
+//
+// Degenerate cases and accuracy are those of the search that answers: rollfix/solve.hpp, touch.hpp, hold.hpp. Contacts
+// or options that don't go together are an InputError that names the field.
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <cstddef>

@@ -1,5 +1,11 @@
 #pragma once
 
+// What sensors say between two instants, and how far off that may be.
+//
+//     const Reading one(1.0, 0.5);           // length on the part, turn in radians
+//     const Reading two(0.58, 0.94, -0.725);  // of two fingers: both lengths, the difference of the turns
+//     two.fingers();                          // 2
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <Eigen/Core>

@@ -1,5 +1,21 @@
 #pragma once
 
+// What fingers do that roll on a part, and what their sensors would write: docs/rolling.md.
+//
+//     const Part part = load_part("gallery:ellipse,a=2,b=1");
+//     RollPlan plan;
+//     plan.start = 0.5;
+//     plan.distance = 1.0;
+//     const Roll rolled = roll(part, disk(0.3), plan);
+//     const Answer answer = solve({part, rolled.log, {disk(0.3)}});
+//     answer.placements[0].contains(part.boundary(), {0.5});  // true
+//
+// Degenerate cases: at a convex corner the finger pivots, at a concave one it stops with an error; a roll of length 0
+// is one row, repeated.
+//
+// Accuracy: closed forms of eqs. (1) and (2), to rounding; an integrator of the same equations agrees to 1e-9 in
+// tests/rolling_test.cpp.
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,26 @@
 #pragma once
 
+// From a part and a roll on it to every place where the roll can have started: one finger on a part at rest, or two on
+// a part that is free to move. Names are those of the JSON document.
+//
+//     const Part part = load_part("gallery:spline,n=9,seed=7,wobble=0.2");
+//     Problem problem{part, Reading(0.9977, 0.99362)};  // length, turn in radians
+//     problem.tolerance = 3e-4;                         // how far the turn may be off
+//     const Answer answer = solve(problem);
+//     answer.verdict.text();          // "ambiguous (6)"
+//     answer.placements[0].start[0];  // 0.576029
+//     const Log log = read_log("examples/roll.csv");
+//     const Noise noise{.contact = 0.05, .angle = 0.006, .slip = 0.004};
+//     const Answer noisy = solve({load_part("examples/wing.csv"), log, {disk(10)}, noise});
+//     noisy.placements[0].probability > 0.5;  // true
+//
+// Degenerate cases: a roll that fits all the way round (a circle, a whole lap) is `unobservable`; one that nothing fits
+// is `inconsistent`, and `diagnoses` says why; a continuum is one placement of kind `stretch`; L = 0 fits everywhere if
+// the turn is 0; L may exceed the perimeter; an open outline has no place before its ends.
+//
+// Accuracy: without noise as of `locate`. With noise the 95 % interval of a place holds the true one in 95 % of logs
+// whose noise is as stated: docs/calibration.md has the share by length of log, kind of noise and outline.
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <cstddef>

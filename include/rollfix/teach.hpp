@@ -1,5 +1,19 @@
 #pragma once
 
+// An outline from a roll around a part that has no drawing: docs/teach.md.
+//
+//     const Part truth = load_part("gallery:limacon");
+//     const NoisyIncrements lap = noisy_increments(truth, 0, 1.02 * truth.perimeter(), 400, {}, 1);
+//     const Taught taught = teach(lap.log);
+//     taught.turns;                                                             // 1
+//     std::abs(taught.outline.closed ? Part(taught.outline).perimeter() - truth.perimeter() : 1) < 1e-3;  // true
+//
+// Degenerate cases: a roll that does not come back is refused unless `open` or `bridge`; corners are found where
+// neighbouring rows turn by `corner_angle`.
+//
+// Accuracy: Taught states it, from the noise, the rows' distance and the gap; docs/teach.md, "How accurate", compares
+// it with the truth.
+
 #include <cstddef>
 #include <optional>
 #include <string>

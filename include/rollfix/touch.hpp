@@ -1,5 +1,18 @@
 #pragma once
 
+// From contacts that share a pose, touches without rolling and rolls, to every pose of the part: docs/touch.md.
+//
+//     TouchProblem problem{load_part("gallery:ellipse,a=2,b=1")};
+//     problem.touches = {{{2, 0}, 0.0}, {{0, 1}, std::numbers::pi / 2}};  // place, direction out of the part
+//     problem.tolerance = TouchTolerance{1e-6, 1e-6};
+//     const TouchAnswer answer = solve(problem);
+//     answer.verdict_text();  // "ambiguous (2)"
+//
+// Degenerate cases: one touch alone is `unobservable`; touches on one straight side, or on a circle, leave a continuum,
+// of which `extent` and `family` say where it lies; a part with m-fold symmetry has m poses.
+//
+// Accuracy: docs/touch.md has the share of simulated questions whose true pose is listed and in its intervals.
+
 #include <array>
 #include <cmath>
 #include <cstddef>

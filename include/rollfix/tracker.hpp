@@ -1,5 +1,13 @@
 #pragma once
 
+// Row by row: where the contacts are by now, while one finger or two roll on: docs/watch.md.
+//
+//     const Part part = load_part("examples/wing.csv");
+//     Tracker tracker(part, {disk(10)}, {.contact = 0.05, .angle = 0.006, .slip = 0.004});
+//     std::size_t told = 0;
+//     for (int row = 0; row < 20; ++row) told += tracker.push(0.04 * row, -0.04 * row, -1.4 + 0.043 * row).size();
+//     told > 0;  // true
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <chrono>
@@ -81,9 +89,6 @@ struct TrackOptions {
 /// Where the contacts are, row by row, while one finger or two roll on a part, or a jaw beside a wheel without skin:
 /// the posterior of `locate`, in memory that does not grow with the roll (docs/watch.md, docs/belief.md). Rows come as
 /// numbers, as lines of a log, or as what a stream made of them: use one of the three.
-///
-///     Tracker tracker(part, {disk(5)}, {.contact = 0.1, .angle = 0.01});
-///     for (const Tracked& now : tracker.push(time, u, psi)) { ... }
 ///
 /// `push` returns what is worth telling of the row, in order: nothing mostly; the first contact of a roll, of one
 /// sample; news (see is_news); the end of a roll (`over`), which of a row that jumps away comes before the first

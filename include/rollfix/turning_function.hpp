@@ -1,5 +1,16 @@
 #pragma once
 
+// Theta(s), the tangent's direction along a boundary, with bounds on intervals; and periodic places and arcs.
+//
+//     const Part part = load_part("gallery:circle,r=2");
+//     const TurningFunction& theta = part.turning();
+//     theta.angle(2.0) - theta.angle(0.0);               // 1
+//     part.boundary().distance(0.1, 12.5);   // 0.166371
+//
+// Degenerate cases: at a corner Theta jumps, and `before` and `after` differ; on a line it is constant.
+//
+// Accuracy: 1e-12 rad (docs/search.md, "ACCURACY").
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

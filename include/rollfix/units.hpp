@@ -1,5 +1,12 @@
 #pragma once
 
+// Units as people write them.
+//
+//     parse_length("0.5 in")->value;                                  // 0.5
+//     in_unit(*parse_length("0.5in"), "mm", "a radius");              // 12.7
+//
+// Degenerate cases: a length with a unit where the part's is not known is an InputError.
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 #include <optional>

@@ -3,6 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+// Notation (section 3.2, Figures 5 and 6)
+//   phi_1, phi_2    of s, finger a: `at.a.phi(0)`, `at.a.phi(1)`
+//   phi_3, phi_4    of t, finger b: `at.b.phi(0)`, `at.b.phi(1)`
+//   theta_1, _2     right sides of (8) and (9): `problem.theta[0]`, `[1]`
+//   x, y; w, z      ends of the stretch of s, and of t, on which (8) gives each s one t: `begin`, `end`
+//   x_i, w_i        the iteration of Figure 6: `at`
+//   trend_2, _4     +1 where phi_2 (phi_4) grows along the stretch, else -1
+// Idea: (8) always holds while s and t move. Where phi_2 and phi_4 go opposite ways, phi_2(s) - phi_4(t) is monotone:
+// bisection. Else one start moves until (9) holds, the other until (8) does, and so on to the limit.
+
 namespace rollfix::march {
 
 void Correspondence::follow_with_s(StartsOfBoth& at) const {

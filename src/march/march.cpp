@@ -8,6 +8,15 @@
 #include "march/sweep.hpp"
 #include "rollfix/turning_function.hpp"
 
+// Notation (sections 2 and 5, eqs. (4) to (6))
+//   g, C      density, and the value of its integral that is wanted: g = kappa, C = theta is eq. (5);
+//             g = kappa', C = 0 is eq. (6), kappa(t) - kappa(s) = 0: the stationary points of phi;
+//             any other g is section 5's problem
+//   L, P      length of the segment, `length`, and the perimeter
+//   segments  the answer: all [s, s + L] over which g integrates to C
+// Idea: a length of more than a loop is reduced by whole loops, and their integral taken off C. What is left slides
+// once along the boundary (sweep.cpp).
+
 namespace rollfix::march {
 
 namespace {

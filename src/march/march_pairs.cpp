@@ -9,6 +9,15 @@
 #include "march/pairs.hpp"
 #include "rollfix/turning_function.hpp"
 
+// Notation (section 3)
+//   s, t            first contacts of fingers a and b: arc lengths in [0, P)
+//   L_1, L_2        lengths from s by the first and the second reading; L_3, L_4 those from t
+//   theta_1, _2     right sides of (8) and (9), radians
+//   m, n            intervals between stationary points of finger b, and of finger a
+// Idea: partition.cpp divides both domains, correspondence.cpp pairs two intervals where (8) allows it, rectangle.cpp
+// finds all pairs in there; here the m n rectangles are gone through and finds of neighbours made one. Section 3 bounds
+// the steps by a multiple of (m + n) T / h.
+
 namespace rollfix::march {
 
 namespace {

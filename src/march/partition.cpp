@@ -9,6 +9,14 @@
 
 #include "rollfix/turning_function.hpp"
 
+// Notation (section 3.1; docs/march.md, "Partition")
+//   phi_k(s)    total curvature of the segment of length L_k from s on: `phi(0)` and `phi(1)` are phi_1 and phi_2 of
+//               finger a, phi_3 and phi_4 of finger b
+//   a_i, b_j    stationary points of both phi of finger a, of finger b: `points`
+//   trend       sign of phi' on an interval between two of them
+// Idea: eq. (6), solved by the march of section 2, gives the stationary points; one round with the segments' ends in
+// place gives all phi at them. On each interval both phi are monotone.
+
 namespace rollfix::march {
 
 namespace {

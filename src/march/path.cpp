@@ -7,6 +7,14 @@
 #include <cmath>
 #include <utility>
 
+// Notation (docs/march.md, "Numerical integration")
+//   u           parameter of a curve; alpha(u) its point, `speed` = |alpha'(u)|
+//   h           step in u, `step`; each step is integrated by Gauss-Legendre quadrature with five nodes
+//   length      integral of |alpha'|, eq. (4); `integral` that of g |alpha'|, eq. (5) where g = kappa
+//   Position    a place: step, u within it, and both integrals from s = 0 on
+// Idea: a Walker goes from step to step and sums up; within a step it lands on a given length or integral by Newton's
+// iteration. Reference: Abramowitz and Stegun, Handbook of Mathematical Functions, 25.4.29.
+
 namespace rollfix::march {
 
 namespace {

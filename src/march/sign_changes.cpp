@@ -8,6 +8,13 @@
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+// Notation (section 2.2, preprocessing)
+//   g        density: the curvature (its zeros are inflections), or its derivative by s (vertices)
+//   z        a sign change of g, as a curve and a parameter u on it
+//   order    of a zero: g grows like (u - z)^order; a simple one has order 1, footnotes 1 and 2 of the paper
+// Idea: g is sampled as densely as it is integrated; between samples of different signs a root is bracketed (TOMS 748,
+// Alefeld, Potra, Shi 1995), between samples of one sign the local minimum of |g| tells whether it touches zero.
+
 namespace rollfix::march {
 
 namespace {

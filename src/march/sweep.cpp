@@ -5,6 +5,16 @@
 
 #include <fmt/format.h>
 
+// Notation (section 2.2, Figure 3; docs/march.md, "Non-convex boundary")
+//   s, t          ends of the sliding segment: `pair.s`, `pair.t`, t = s + L; arc lengths
+//   g, phi, C     density (kappa, or kappa' for eq. (6)); phi(s) = its integral over [s, s + L]; the value wanted
+//   z_k, z_l+1    first sign change of g after s, and after t: `next_s_`, `next_t_`
+//   sigma(s)      end of the segment that starts at s: s + L
+//   excess, side  phi(s) - C, and its sign
+// Idea: between two sign changes g(s) and g(t) keep their signs, one of four modes. Both signs the same: the march of
+// section 2.1 (alternation.cpp). Different: phi is monotone, and bisection finds its one root or none. Theorem 5 counts
+// the steps.
+
 namespace rollfix::march {
 
 namespace {
