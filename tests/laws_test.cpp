@@ -1,5 +1,5 @@
-// The laws of the search, each on random outlines of every kind, one finger and two by the same words. Their numbers are
-// those of rollfix/locate.hpp.
+// The laws of the search, each on random outlines of every kind, one finger and two by the same words. Their numbers
+// are those of rollfix/locate.hpp.
 
 #include "laws.hpp"
 
