@@ -57,6 +57,12 @@ struct Felt {
   bool is_log() const { return log.has_value(); }
 };
 
+/// Readings as people write them, each "LENGTH,TURN" or "LENGTH_A,LENGTH_B,TURN", as in "0.9977,56.93deg" or
+/// "8mm,0.31": they know their digits, so that the answer has every place that fits what was rounded. All numbers of a
+/// reading count as rounded alike. `unit`: the part's, into which lengths with a unit are converted. Throws InputError:
+/// a text that is not such a reading, or a unit that can't be converted.
+Felt typed(const std::vector<std::string>& readings, const std::string& unit = {});
+
 /// A roll on a part, and how to look at it.
 struct Problem {
   Part part;
