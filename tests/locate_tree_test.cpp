@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "locate/candidates.hpp"
+#include "locate/searches.hpp"
 #include "part/part_data.hpp"
 #include "random.hpp"
 #include "rollfix/locate.hpp"

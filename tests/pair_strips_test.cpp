@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "locate/pair/roll_strips.hpp"
+#include "locate/pair/roll_curve.hpp"
 #include "pair_cases.hpp"
 #include "random.hpp"
 #include "rollfix/outline.hpp"

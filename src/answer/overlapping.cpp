@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "finger/convex_body.hpp"
-#include "locate/pieces.hpp"
+#include "locate/sieve.hpp"
 #include "rollfix/finger.hpp"
 
 // Notation, all of it as the part sees it:

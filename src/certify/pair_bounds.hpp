@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact_curve.hpp"
-#include "locate/pair/convex.hpp"
+#include "locate/pair/range.hpp"
 #include "rollfix/reading.hpp"
 
 namespace rollfix {

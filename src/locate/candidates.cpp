@@ -1,4 +1,4 @@
-#include "candidates.hpp"
+#include "searches.hpp"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "accuracy.hpp"
+#include "corner_sets.hpp"
 #include "part/part_data.hpp"
 
 // Notation:

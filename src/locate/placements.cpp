@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "accuracy.hpp"
+#include "corner_sets.hpp"
 #include "outline/turn.hpp"
 #include "part/part_data.hpp"
 #include "rollfix/locate.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "interpolation.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:

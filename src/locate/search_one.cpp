@@ -2,12 +2,10 @@
 #include <cmath>
 #include <utility>
 
-#include "candidates.hpp"
 #include "corner_sets.hpp"
 #include "part/cursor.hpp"
 #include "root_search.hpp"
 #include "searches.hpp"
-#include "sets_of_one.hpp"
 
 // Notation:
 //   s, s + L        start and end of a roll: `here` (up to `next`), and `here + pair.offset` on the end's own spiral

@@ -1,4 +1,4 @@
-#include "sets_of_one.hpp"
+#include "searches.hpp"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "accuracy.hpp"
+#include "corner_sets.hpp"
 
 // Notation:
 //   f(s)            Theta(s + L) - Theta(s) - theta, eqs. (4), (5): ResidualSample; of several readings the largest |f|

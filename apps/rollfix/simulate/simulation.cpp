@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string_view>
 
-#include "log/mirrored.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"

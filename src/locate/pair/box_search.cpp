@@ -7,10 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "../accuracy.hpp"
-#include "convex.hpp"
-#include "line_search.hpp"
+#include "locate/corner_sets.hpp"
 #include "outline/turn.hpp"
+#include "range.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:

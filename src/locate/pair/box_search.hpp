@@ -1,17 +1,195 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "pair_box.hpp"
 #include "pair_find.hpp"
+#include "range.hpp"
 #include "roll_curve.hpp"
 
 namespace rollfix {
+
+/// Where a residual varies by this share of the tolerance, all is in or out as its middle is.
+inline constexpr double kSmallVariation = 0.25;
+
+/// The cubic on [0, 1] with these values and slopes at the ends (Hermite).
+class Cubic {
+ public:
+  Cubic(double first, double last, double slope_first, double slope_last)
+      : first_(first),
+        slope_(slope_first),
+        square_(3 * (last - first) - 2 * slope_first - slope_last),
+        cube_(slope_first + slope_last - 2 * (last - first)) {}
+
+  double value(double x) const { return first_ + x * (slope_ + x * (square_ + x * cube_)); }
+  double slope(double x) const { return slope_ + x * (2 * square_ + x * (3 * cube_)); }
+
+ private:
+  double first_;
+  double slope_;
+  double square_;
+  double cube_;
+};
+
+/// A stretch of one finger's curve on one piece: a side of a box.
+class BoxSide {
+ public:
+  BoxSide(const RollCurve& curve, std::int32_t node)
+      : curve_(&curve),
+        components_(curve.components(node)),
+        node_(node),
+        lo_(curve.node(node).lo),
+        hi_(curve.node(node).hi) {}
+
+  const RollPiece& piece() const { return curve_->piece(curve_->node(node_)); }
+  RollPoint first() const { return curve_->first(curve_->node(node_)); }
+  RollPoint last() const { return curve_->last(curve_->node(node_)); }
+  const RollCurve::Component& component(std::size_t row) const { return components_[row]; }
+  /// Through its values and slopes at the ends: nearly the component itself.
+  Cubic cubic(std::size_t row) const {
+    const auto [first, last] = curve_->end_slopes(curve_->node(node_), row);
+    return {component(row).first, component(row).last, width() * first, width() * last};
+  }
+  double lo() const { return lo_; }
+  double hi() const { return hi_; }
+  double width() const { return hi_ - lo_; }
+  double middle() const { return 0.5 * (lo_ + hi_); }
+  bool pivots() const { return piece().pivot_at.has_value(); }
+  double s(double x) const { return piece().s(x); }
+  std::size_t rows() const { return curve_->rows(); }
+  const Range& value(std::size_t row) const { return components_[row].value; }
+  const Range& slope(std::size_t row) const { return components_[row].slope; }
+  /// Lines, arcs and pivots: no rate changes.
+  bool is_straight() const {
+    return std::all_of(components_, components_ + rows(),
+                       [](const RollCurve::Component& of) { return of.slope.spread() == 0; });
+  }
+  Range slope_between(const RollPoint& one, const RollPoint& two, std::size_t row) const {
+    return curve_->slope_between(piece(), one, two, row);
+  }
+  /// The curve, continued beyond this side's ends by its tangents there: slopes keep this side's bounds.
+  RollPoint point(double x) const {
+    RollPoint point;
+    move(point, x);
+    return point;
+  }
+  RollCurve::Place place(double x, std::size_t row) const { return curve_->place(curve_->node(node_), x, row); }
+  void move(RollPoint& point, double x) const { curve_->move(point, curve_->node(node_), x); }
+  /// Places closer together than this are one: a share of the perimeter, or of a radian where the finger pivots.
+  double same_place(const PairLimits& limits) const { return pivots() ? kLengthAccuracy : limits.same_place; }
+
+ private:
+  const RollCurve* curve_;
+  const RollCurve::Component* components_;  // good until a node is halved
+  std::int32_t node_;
+  double lo_;
+  double hi_;
+};
+
+/// Two sides and the equations f = A(s) - B(t) - shift = 0 between them.
+struct PairBoxSides {
+  BoxSide a;
+  BoxSide b;
+  double lap = 0;  // the multiple of 2 pi that the facing row means here
+
+  double shift(std::size_t row, const PairLimits& limits) const {
+    return limits.facing && row + 1 == a.rows() ? lap : 0;
+  }
+  Range value(std::size_t row, const PairLimits& limits) const {
+    const double by = shift(row, limits);
+    return a.value(row) - b.value(row) - Range{by, by};
+  }
+  bool pivots() const { return a.pivots() || b.pivots(); }
+};
+
+/// Where two curves run alongside each other in a box: one equation, the guide, is solved for one of the two contacts,
+/// which leaves a line through the box, and the other equations are searched along that line by branch and prune, as
+/// one finger's is. Finds touching curves, and curves that overlap: stretches.
+class LineSearch {
+ public:
+  LineSearch(const PairBoxSides& sides, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
+
+  /// False: no equation in this box can guide, or the tolerance is as wide as the box.
+  bool run();
+
+  /// Are the curves together in the middle of the line as well as on it?
+  bool may_overlap();
+
+ private:
+  /// A place on the line.
+  struct Place {
+    RollPoint free;   // of the contact that the line is told by
+    RollPoint bound;  // of the other one: the guide is 0
+  };
+  struct Stretch {
+    Place lo;
+    Place hi;
+    int depth = 0;
+    bool covered = false;  // see PairLimits
+  };
+  /// Bounds along a stretch of the line.
+  struct Bounds {
+    Range bound_x;               // of the other contact
+    Range direction;             // its change by the free contact's
+    std::vector<Range> slope;    // of each residual by the free contact
+    std::vector<double> within;  // the tolerance of each residual, for the guide may be off as well
+  };
+
+  bool choose_guide();
+  Place place(double x) const;
+  double bound_at(double value) const;
+  double residual(const Place& place, std::size_t row) const;
+  double residual_slope(const Place& place, std::size_t row) const;
+  double direction(const Place& place) const;
+  Bounds bounds(const Stretch& stretch) const;
+  bool turns_round(const Stretch& stretch) const;
+  bool clip(Stretch& stretch, double margin) const;
+  Place at_edge(const Stretch& stretch, double edge) const;
+  void decide(Stretch stretch);
+  std::size_t steepest(const Bounds& along) const;
+  bool take_flat(const Stretch& stretch, const Bounds& along, bool is_point);
+  bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
+  bool is_apart_midway() const;
+  bool slopes_vanish(const Place& at) const;
+  bool vanishes(const Place& place) const;
+  double residual_rounding(const Place& place) const;
+  Place turn_between(const Place& one, const Place& two) const;
+  void take_overlap(const Stretch& whole, std::vector<Place> samples);
+  void add_beyond(const Place& lo, const Place& hi);
+  void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);
+  void add_piece(const Place& lo, const Place& hi, const Range& y);
+  bool passes_by(const Place& lo, const Place& hi, const Range& y) const;
+  Polygon within_row(const Polygon& polygon, const Place& at, std::size_t row, double most) const;
+  Polygon narrow(const Polygon& band, const Place& lo, const Place& hi) const;
+  Polygon band(const Place& lo, const Place& hi, double bend) const;
+  void add_root(const Place& place, int sign, bool exact);
+  Place solve(std::size_t row, double level, const Place& from, const Place& to) const;
+  PairPoint contacts(const Place& place) const;
+  PairPoint contacts(const Vec2& at) const;
+  bool is_inside(const Place& place) const;
+  void split(const Stretch& stretch);
+
+  const BoxSide& free() const { return free_is_a_ ? sides_.a : sides_.b; }
+  const BoxSide& bound() const { return free_is_a_ ? sides_.b : sides_.a; }
+  /// How far off in place a bound contact is that is so far off: not at all where it pivots, by an angle.
+  double length_of(double off) const { return bound().pivots() ? 0 : off; }
+
+  PairBoxSides sides_;
+  PairLimits limits_;
+  std::size_t& budget_;
+  PairFindings& findings_;
+  bool free_is_a_ = true;
+  std::size_t guide_ = 0;
+  double margin_ = 0;  // how far the bound contact may be off the line within the tolerance
+  std::vector<Stretch> waiting_;
+};
 
 /// Branch and prune on boxes of two first contacts: where two curves meet, all of it, proved complete. A box goes when
 /// its sides can't meet; where J has an inverse on all of it there is one root at the most, and Newton's method says

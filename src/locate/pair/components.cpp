@@ -6,9 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "piece_links.hpp"
-#include "slant.hpp"
-
 // Notation, as in piece_links.cpp:
 //   piece, shift    a connected set of pairs (s, t) within the tolerance, and whole laps that it is moved by
 //   link            two pieces that touch

@@ -1,4 +1,4 @@
-#include "family_line.hpp"
+#include "components.hpp"
 
 #include <algorithm>
 #include <array>

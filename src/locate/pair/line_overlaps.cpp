@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "../accuracy.hpp"
-#include "line_search.hpp"
+#include "box_search.hpp"
+#include "locate/corner_sets.hpp"
 
 namespace rollfix {
 namespace {

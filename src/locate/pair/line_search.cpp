@@ -1,4 +1,4 @@
-#include "line_search.hpp"
+#include "box_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "../accuracy.hpp"
+#include "locate/corner_sets.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:

@@ -1,4 +1,4 @@
-#include "pair_sets.hpp"
+#include "components.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "../accuracy.hpp"
 #include "../placements.hpp"
+#include "locate/corner_sets.hpp"
 #include "outline/turn.hpp"
 
 // Notation:

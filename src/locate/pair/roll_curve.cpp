@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../accuracy.hpp"
+#include "locate/corner_sets.hpp"
 
 // Notation:
 //   s, L_k          first contact, length of reading k: `equations_.lengths`. Contact 0 is at s, contact k + 1 at s +

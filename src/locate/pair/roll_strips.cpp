@@ -1,10 +1,10 @@
-#include "roll_strips.hpp"
+#include "roll_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "../accuracy.hpp"
+#include "locate/corner_sets.hpp"
 #include "part/cursor.hpp"
 #include "part/part_data.hpp"
 

@@ -1,12 +1,12 @@
 // Polynomials through samples of f: where they have a value, and how sure that is.
 
-#include "locate/interpolation.hpp"
+#include "locate/root_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace interpolation_test {
+namespace root_search_test {
 namespace {
 
 using namespace rollfix;
@@ -58,4 +58,4 @@ TEST(Interpolation, beside_a_sample_goes_on_with_its_slope) {
   EXPECT_NEAR(near.slope(), 2, 1e-5);
 }
 
-}  // namespace interpolation_test
+}  // namespace root_search_test
