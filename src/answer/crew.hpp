@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -11,11 +12,27 @@
 #include <thread>
 #include <vector>
 
-#include "answer/signals_wait.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
 namespace rollfix {
+
+/// As long as it lives signals wait for this thread, and for those that it starts: none ends the program with files
+/// half written.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+  }
+  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_ = {};
+};
 
 // How long nobody is asked whether to go on: short for a person, long for a machine.
 inline constexpr std::chrono::milliseconds kMostSilence{50};

@@ -6,12 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "column_cure.hpp"
-#include "length_scales.hpp"
-#include "mirror.hpp"
+#include "either_way.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
-#include "slips_of_the_pen.hpp"
 #include "weighing.hpp"
 
 namespace rollfix {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "answer/observation.hpp"
+#include "observation.hpp"
 #include "rollfix/solve.hpp"
 
 // Logs of fingers with corners: on them a row's u does not tell how the finger's normal is turned, off them it does,
@@ -41,5 +41,18 @@ std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vecto
 void to_last_contacts(const Observation& observed, const Noise& noise, Answer& answer);
 /// The same of a mode: the last contacts lie `further` behind those of the last row that was weighed.
 void to_last_contacts(const Reading& further, const Part& part, const Noise& noise, Mode& mode);
+
+/// What rows on corners of the fingers say.
+struct CornerRowsSay {
+  bool are_heeded = false;  // some places became less probable
+  bool fits_badly = false;  // with every place
+};
+
+/// With noise, of an answer that was weighed without them: what rows on corners of the fingers say of each place.
+/// Places that none of their turns allow become less probable, and those that are next to impossible are no longer
+/// listed. Of the rows before the first one off the corners the first alone is looked at, of one
+/// finger.
+CornerRowsSay weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const Observation& observed,
+                                Answer& answer);
 
 }  // namespace rollfix

@@ -1,4 +1,4 @@
-#include "length_scales.hpp"
+#include "diagnosis.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "rollfix/part.hpp"
+#include "rollfix/reading.hpp"
 #include "rollfix/solve.hpp"
 
 namespace rollfix {
@@ -38,5 +40,10 @@ Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& r
 Tolerance tolerance_from_noise(double value);
 /// Throws InputError: below 0.
 Tolerance tolerance_given(double value);
+
+/// Lengths that their digits can't tell from a way between two corners, or from staying on one, made that way. A
+/// contact on a corner pivots, and where a length is rounded it would leave the corner. `within`: how far digits can
+/// have moved a length.
+void put_on_corners(const Part& part, double within, std::vector<Reading>& readings);
 
 }  // namespace rollfix

@@ -1,4 +1,4 @@
-#include "overlapping.hpp"
+#include "weighing.hpp"
 
 #include <algorithm>
 #include <cmath>

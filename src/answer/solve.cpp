@@ -9,18 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "corner_rows.hpp"
-#include "corner_ways.hpp"
 #include "either_way.hpp"
 #include "finger_corners.hpp"
-#include "mirror.hpp"
 #include "observation.hpp"
-#include "overlapping.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
-#include "unweighed.hpp"
 #include "weighing.hpp"
 
 namespace rollfix {

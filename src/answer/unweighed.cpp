@@ -1,4 +1,4 @@
-#include "unweighed.hpp"
+#include "weighing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
-#include "weighing.hpp"
 
 namespace rollfix {
 namespace {

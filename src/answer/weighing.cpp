@@ -10,7 +10,6 @@
 #include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
-#include "unweighed.hpp"
 
 namespace rollfix {
 namespace {

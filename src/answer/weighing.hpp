@@ -6,9 +6,32 @@
 #include <vector>
 
 #include "observation.hpp"
+#include "rollfix/solve.hpp"
+
+namespace rollfix {
+
+// Without noise: a few rows of a log are searched with, and all of them are held against what was found.
+
+/// The noise that a log's rows seem to have, as they jitter beside a smooth course: none where they don't, or where
+/// there are too few to tell.
+std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>& fingers);
+
+/// How far the fingers' centres in the world, as a log has them, jitter beside a smooth course: the largest standard
+/// deviation of a coordinate; 0 where they don't, or where there are too few rows to tell.
+double jitter_of_centres(const Log& log);
+
+/// Half a unit of the last decimal that any of the numbers shows; 0: they show more than can be told.
+double rounding_of_column(const std::vector<double>& values);
+
+/// Of two fingers' log, a row that is off the place which stands for a continuum of pairs: the search is to be asked
+/// about it as well. Nothing where all rows fit those places.
+std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
+
+/// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last. Where none
+/// is left the rows fit badly, which is false, and why, if it `explains`. REQUIRES a log, and poses where it has them.
+bool check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer);
 
 // With noise: what all rows of a log, or the readings where there is no log, make of the placements.
-namespace rollfix {
 
 /// What the problem's log tells of itself; of readings: lengths and turns.
 LogKind kind_of(const Problem& problem);
@@ -47,5 +70,11 @@ bool weigh(const Problem& problem, const Observation& observed, bool explains, B
 /// were no more than the others; in doubt where something else explains the rows as well. `fits_badly`: what was found
 /// of the rows besides.
 void conclude(Belief& belief, Answer& answer, bool is_reweighed = false, bool fits_badly = false);
+
+/// Takes the placements out of a list in which two fingers of any shape are in one another in some row of their log,
+/// from wherever in its extent they started. With an outline it takes u: of readings nothing goes. `length_error`: how
+/// far a length, or a contact on a finger, may be off.
+std::vector<Impossible> drop_overlapping(const Problem& problem, const Observation& observed, double length_error,
+                                         std::vector<Placement>& placements);
 
 }  // namespace rollfix

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "answer/signals_wait.hpp"
+#include "answer/crew.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;

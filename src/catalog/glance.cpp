@@ -7,7 +7,6 @@
 
 #include "answer/crew.hpp"
 #include "answer/either_way.hpp"
-#include "answer/mirror.hpp"
 #include "answer/observation.hpp"
 #include "answer/weighing.hpp"
 #include "rollfix/error.hpp"

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "belief/even_rows.hpp"
+#include "belief/nodes.hpp"
 
-// Rows between the first and the last one go together, as few means as even motion allows: belief/even_rows.hpp.
+// Rows between the first and the last one go together, as few means as even motion allows: belief/nodes.hpp.
 namespace rollfix::hold {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "answer/unweighed.hpp"
+#include "answer/weighing.hpp"
 #include "belief/posterior.hpp"
 #include "hold_facts.hpp"
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "answer/observation.hpp"
-#include "answer/unweighed.hpp"
 #include "answer/weighing.hpp"
 #include "outline/turn.hpp"
 #include "requirements.hpp"

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "answer/signals_wait.hpp"
+#include "answer/crew.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::app {

@@ -2,11 +2,184 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "belief/one/grid.hpp"
 #include "belief/posterior.hpp"
+#include "rollfix/turning_function.hpp"
 
+// One finger's posterior: how well the rows fit the likeliest point of the grid, and what they tell of the errors that
+// the roll shares; the density along the boundary; and the facade of all of it.
+// Notation:
+//   w, s            tilted turning of the first contact, the grid's coordinate, and its place: GridPoint, GridCell
+//   share           of the mass, in a cell, a little piece of a mode (Piece) or a piece of the density (DensityPiece)
+//   cost, volume    -2 log L = cost + log_volume at a point: Score
+//   widened         by how much the rows are further off than the noise says: `fit_.widened`
+//   eps, gamma, b   scales of lengths and of turns and a gyroscope's bias: `shared_error` 2, 3 and 4
+// Follows docs/belief.md, "The computation" and "When the rows fit badly".
+// Idea: cells are cut into parts of about the same mass (one finger), or little pieces are counted by steps (two): both
+// give a density that is constant on each piece. The fit is that of the likeliest point.
 namespace rollfix::belief {
+namespace {
+
+// A piece of one finger's density changes by no more than this within it, of a logarithm.
+constexpr double kRiseOfPart = 0.05;
+// Of two fingers the density along one boundary is told by steps of this many standard deviations of a mode ...
+constexpr double kDensityStep = 1.0 / 3;
+// ... which are no more than this many.
+constexpr double kMostDensitySteps = 300;
+
+// The pieces stand for little squares on a lattice that lies askew to the boundary: counted as points they would make
+// ripples with the steps. So each is spread over so many steps on both sides; of too few steps none is.
+constexpr double kSpread = 2;
+constexpr double kFewestSmoothed = 6;
+
+/// What is held by steps from `lo` on, `inner` of them and those that the spread reaches.
+std::vector<double> spread_out(const std::vector<Piece>& pieces, std::size_t finger, double lo, double step,
+                               std::size_t inner) {
+  std::vector<double> held(inner + 2 * static_cast<std::size_t>(kSpread), 0.0);
+  const auto below = [](double x) {  // of a hat over kSpread steps on both sides of 0
+    const double at = std::clamp(x / kSpread, -1.0, 1.0);
+    return at < 0 ? 0.5 * (1 + at) * (1 + at) : 1 - 0.5 * (1 - at) * (1 - at);
+  };
+  for (const Piece& piece : pieces) {
+    const double at = (piece.s[finger] - lo) / step;
+    const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(at - kSpread)));
+    for (std::size_t k = begin; k < held.size() && static_cast<double>(k) < at + kSpread; ++k) {
+      const double left = static_cast<double>(k) - at;
+      held[k] += piece.share * (below(left + 1) - below(left));
+    }
+  }
+  return held;
+}
+
+DensityPiece piece_on(const Boundary& places, double lo, double hi, double probability) {
+  const double at = places.on_first_lap(lo);
+  return {{at, at + (hi - lo)}, probability};
+}
+
+void sort_by_place(Density& density) {
+  std::stable_sort(density.begin(), density.end(),
+                   [](const DensityPiece& a, const DensityPiece& b) { return a.s.lo < b.s.lo; });
+}
+
+}  // namespace
+
+Density density_of(const Grid& grid, const Boundary& places) {
+  Density density;
+  for (const GridCell& cell : grid.cells()) {
+    if (!(cell.share > kLeastShare)) continue;
+    // The density changes within a cell: parts of the same mass are even enough.
+    const auto parts = static_cast<int>(std::ceil(std::max(1.0, std::abs(cell.rise) / kRiseOfPart)));
+    double lo = cell.s.lo;
+    for (int k = 1; k <= parts; ++k) {
+      const double hi =
+          k < parts ? cell.s.lo + cell.s.width() * cell.quantile(static_cast<double>(k) / parts) : cell.s.hi;
+      density.push_back(piece_on(places, lo, hi, cell.share / parts));
+      lo = hi;
+    }
+  }
+  sort_by_place(density);
+  return density;
+}
+
+void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
+                 Density& density) {
+  if (pieces.empty()) return;
+  const auto [first, last] = std::minmax_element(
+      pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return a.s[finger] < b.s[finger]; });
+  Interval range{first->s[finger], last->s[finger]};
+  const double wanted = range.width() / std::max(kDensityStep * mode.sd[finger], 1e-300);
+  const double inner = range.width() > 0 ? std::clamp(std::ceil(wanted), 1.0, kMostDensitySteps) : 1;
+  const double step = range.width() / inner;
+  std::vector<double> held(static_cast<std::size_t>(inner), 0.0);
+  if (step > 0 && inner >= kFewestSmoothed) {
+    range.lo -= kSpread * step;
+    held = spread_out(pieces, finger, range.lo, step, held.size());
+  } else {
+    for (const Piece& piece : pieces) {
+      const double at = step > 0 ? std::floor((piece.s[finger] - range.lo) / step) : 0;
+      held[static_cast<std::size_t>(std::clamp(at, 0.0, inner - 1))] += piece.share;
+    }
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const double lo = range.lo + static_cast<double>(k) * step;
+    if (held[k] > 0) density.push_back(piece_on(places, lo, lo + step, held[k]));
+  }
+  sort_by_place(density);
+}
+
+const GridPoint& Grid::best_point(const Nodes& nodes) const {
+  const GridPoint* best = nullptr;
+  for (const GridPoints& arc : points_) {
+    for (const GridPointer& point : arc) {
+      if (PointScorer::is_stale(*point, nodes)) continue;
+      if (best != nullptr && point->score.log_likelihood() <= best->score.log_likelihood()) continue;
+      best = point.get();
+    }
+  }
+  return *best;
+}
+
+double Grid::step_between(const Nodes& nodes) const {
+  if (!can_be_alike_) return 0;
+  double travelled = 0;
+  double last = 0;
+  double count = 0;
+  const auto pass = [&](const Node& node) {
+    travelled += std::abs(node.length - last);
+    last = node.length;
+    count += 1;
+  };
+  for (const Node& node : nodes.complete()) pass(node);
+  if (const std::optional<Node> pending = nodes.pending()) pass(*pending);
+  return count > 0 ? travelled / count : 0;
+}
+
+void Grid::measure_fit(const Nodes& nodes) {
+  const GridPoint* best = &best_point(nodes);
+  best_ = best->score.log_likelihood();
+  gathered_ = -0.5 * best->now.log_gathered();
+  farthest_ = scorer_.limit() - best->score.log_volume;
+  const double freedom = nodes.freedom();
+  fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
+                         : fit_of(best->now.cost(), freedom, best->now.whiteness());
+  fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
+  add_trend(trend_, step_between(nodes), fit_);
+  fit_.widened *= scorer_.for_large_slip();
+  fit_.prior_sigmas = scorer_.prior_sigmas(*best);
+  fit_.turn_gathered = nodes.turn_gathered();
+  best_mass_ = log_mass(*best);
+}
+
+Grid::Error Grid::shared_error(int which) const {
+  double own = 0;  // for one place
+  double mean = 0;
+  double square_of = 0;
+  for (const GridCell& cell : cells_) {
+    if (!cell.fine) continue;
+    for (const std::size_t end : {cell.first, cell.first + 1}) {
+      const RollFilter& filter = points_[cell.arc][end]->now;
+      const double error = filter.errors()[which];
+      own += 0.5 * cell.share * filter.covariance()(which, which);
+      mean += 0.5 * cell.share * error;
+      square_of += 0.5 * cell.share * error * error;
+    }
+  }
+  return {mean, std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean))};
+}
+
+void Grid::measure_scale() {
+  const Error of_lengths = shared_error(2);
+  const Error of_turns = shared_error(3);
+  fit_.length_scale = 1 / (1 + of_lengths.mean);
+  fit_.length_scale_sd = of_lengths.sd;
+  fit_.turn_scale = 1 - of_turns.mean;
+  fit_.turn_scale_sd = of_turns.sd;
+  const Error of_rate = shared_error(4);
+  fit_.turn_bias = of_rate.mean;
+  fit_.turn_bias_sd = of_rate.sd;
+}
 
 double turns_to_and_fro(const Part& part) {
   double turned = 0;

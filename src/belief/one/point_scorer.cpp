@@ -1,4 +1,4 @@
-#include "belief/one/point_scorer.hpp"
+#include "belief/one/grid.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <memory_resource>
 
@@ -44,7 +45,7 @@ class RollFilter {
   /// over what that leaves open.
   RollFilter again(const SharedCovariance& start, std::pmr::memory_resource* memory) const;
 
-  /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
+  /// Takes a row with its centre, as three equations; see side_by_side.cpp for rows without.
   void update(const Node& node, const Outliers& outliers);
   /// The rows were taken about nearly what they were found to share. `accuracy`: of the contact's place in w after a
   /// full turn, and after this time from the roll's start.
@@ -158,5 +159,32 @@ class RollFilter {
   Gathered on_the_way_;                 // so far
   std::shared_ptr<const Found> found_;  // by the pass before; nullptr in the first
 };
+
+struct GridPoint;
+
+/// Nodes that a filter is to take, in order.
+struct Errand {
+  GridPoint* point = nullptr;  // that it is for
+  int pass = 0;                // how often it has gone through them
+  RollFilter* filter = nullptr;
+  const Node* next = nullptr;
+  const Node* end = nullptr;
+  bool whole = false;  // all of them, however large the deviance gets
+};
+
+/// What rows tell of besides lengths and turns.
+struct RowEquations {
+  bool centres = false;          // two equations more
+  bool gyroscope_scale = false;  // one unknown more, ...
+  bool bias = false;             // ... and another
+};
+
+/// Gives the next errand; false: there is none. It is called with the one that is over, to go on from: its filter has
+/// taken all nodes, or those before `next` and is beyond the limit. The first ones are called for with an empty one.
+using NextErrand = std::function<bool(Errand&)>;
+
+/// Runs errands, several side by side, for each is one long chain of operations that wait for each other. What comes of
+/// one does not depend on the others. `limit`: of the deviance, as it is by then.
+void run_errands(const NextErrand& next, const RowEquations& equations, const double& limit, const Outliers& outliers);
 
 }  // namespace rollfix::belief

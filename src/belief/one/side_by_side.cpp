@@ -1,4 +1,4 @@
-#include "belief/one/side_by_side.hpp"
+#include "belief/one/roll_filter.hpp"
 
 #include <Eigen/Core>
 #include <array>

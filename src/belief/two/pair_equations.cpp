@@ -1,4 +1,4 @@
-#include "belief/two/pair_equations.hpp"
+#include "belief/two/pair_filter.hpp"
 
 #include <algorithm>
 #include <cmath>

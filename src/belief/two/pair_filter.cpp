@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
-#include "belief/two/pair_equations.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation, as in docs/two_fingers.md, "The errors":

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "belief/even_rows.hpp"
 #include "belief/nodes.hpp"
 #include "rollfix/reading.hpp"
 

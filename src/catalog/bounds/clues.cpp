@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "answer/either_way.hpp"
-#include "answer/mirror.hpp"
 #include "answer/observation.hpp"
 #include "answer/weighing.hpp"
 #include "belief/error_model.hpp"
