@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "catalog/congruent.hpp"
 #include "catalog/weights.hpp"
 #include "catalogs.hpp"
 #include "refusal.hpp"

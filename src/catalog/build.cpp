@@ -11,13 +11,12 @@
 
 #include "answer/crew.hpp"
 #include "bounds/profile.hpp"
+#include "database.hpp"
 #include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/inspect.hpp"
-#include "sums.hpp"
-#include "tables.hpp"
 
 namespace rollfix {
 namespace {

@@ -4,11 +4,62 @@
 #include <cmath>
 
 #include "belief/posterior.hpp"
-#include "congruent.hpp"
+#include "part/turning_range.hpp"
+#include "rollfix/advise.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/identify.hpp"
 #include "text/text.hpp"
 #include "weights.hpp"
 
+// Notation, as in docs/identify.md:
+//   evidence        of a part, from its belief: `peak` and `volume`, the latter less log P of each finger (any place
+//                   alike)
+//   widened         by how much the rows are further off than was said, on the part that they fit best: `best_of`
+//   log weight      log evidence, with that noise, + log of how many of the part there are: `log_weight`
+//   probability     weight over the sum of all weights; below exp(-`kNothing`) of the likeliest it is 0
+//   congruent       Theta of both parts agrees at `kPlaces` places, but for the lengths and turns that Likeness allows
+// Follows docs/identify.md; the evidence is docs/belief.md, "What the verdict says".
+// Idea: of all that fit the verdict counts those that can't be neglected; parts that no roll can tell apart are one
+// answer. The next roll is advised over all their places together, each weighed by its part's probability.
 namespace rollfix {
+namespace {
+
+// Places that are compared.
+constexpr int kPlaces = 512;
+
+/// From these places on: at every place of one the other's tangent is the same not far from there.
+bool agree(const Part& one, double from, const Part& other, double other_from, const Likeness& likeness) {
+  const TurningFunction& a = one.turning();
+  const TurningFunction& b = other.turning();
+  const double P = one.perimeter();
+  const double scale = other.perimeter() / P;
+  const double near = likeness.length + kSameScale * P;
+  const double lift = b.angle(other_from) - a.angle(from);
+  for (int k = 0; k < kPlaces; ++k) {
+    const double x = (k + 0.5) / kPlaces * P;
+    const double at = other_from + x * scale;
+    const Interval arc{at - near, at + near};
+    const Interval angles = angles_over(b, one.closed() ? arc : other.boundary().arc(arc.lo, arc.hi));
+    const double angle = a.angle(from + x) + lift;
+    if (angle < angles.lo - likeness.turn || angle > angles.hi + likeness.turn) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool are_congruent(const Part& one, const std::vector<double>& from, const Part& other,
+                   const std::vector<double>& other_from, const Likeness& likeness) {
+  if (one.closed() != other.closed() || one.corners().size() != other.corners().size()) return false;
+  const double off = std::abs(other.perimeter() / one.perimeter() - 1);  // the scale
+  if (off > kSameScale && off * likeness.roll > likeness.length) return false;
+  if (!one.closed()) return agree(one, 0, other, 0, likeness);
+  return std::any_of(from.begin(), from.end(), [&](double place) {
+    return std::any_of(other_from.begin(), other_from.end(),
+                       [&](double other_place) { return agree(one, place, other, other_place, likeness); });
+  });
+}
+
 namespace {
 
 // What is less probable is not listed.
@@ -148,6 +199,74 @@ Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weigh
   compare(catalog, weights, likeness, conclusion);
   conclusion.verdict = verdict_of(conclusion, weights, likeness.noisy, wording);
   return conclusion;
+}
+
+namespace {
+
+// More places are not compared with each other: the likeliest, which hold nearly all of the probability, are.
+constexpr std::size_t kMostPlaces = 200;
+
+std::vector<NextRollOfParts::Place> places_of(const Identified& found) {
+  std::vector<NextRollOfParts::Place> places;
+  std::size_t labels = 0;
+  const double all_alike = 1 / static_cast<double>(found.parts.size());
+  double total = 0;
+  for (std::size_t k = 0; k < found.parts.size() && labels < kMostPlaces; ++k) {
+    const PartFound& one = found.parts[k];
+    const double part_probability = std::isnan(one.probability) ? all_alike : one.probability;
+    for (Hypothesis hypothesis : hypotheses_of(one.answer.part, one.answer.placements)) {
+      hypothesis.probability *= part_probability;
+      hypothesis.label += labels;
+      total += hypothesis.probability;
+      places.push_back({k, hypothesis});
+    }
+    labels += one.answer.placements.size();
+  }
+  for (NextRollOfParts::Place& place : places) place.hypothesis.probability /= total;
+  return places;
+}
+
+std::string why_no_roll(const Identified& found) {
+  const bool alike = !found.parts.empty() && found.parts.front().congruent.size() + 1 >= found.parts.size();
+  return alike && found.parts.size() > 1 ? "the parts that remain are congruent"
+                                         : "within the travel what remains looks alike";
+}
+
+}  // namespace
+
+NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>& travel) {
+  NextRollOfParts next;
+  if (found.parts.empty()) {
+    next.why = "nothing fits: there is nothing to tell apart";
+    return next;
+  }
+  for (const PartFound& one : found.parts) {
+    for (const Placement& placement : one.answer.placements) {
+      if (placement.clockwise) throw InputError("advise: expected one direction of the roll, found either");
+    }
+  }
+  next.places = places_of(found);
+  if (found.verdict.rfind("unique part, unique place", 0) == 0) {
+    next.why = "there is only one part and one place left";
+    return next;
+  }
+  std::vector<ReachForAdvice> reaches;
+  for (const PartFound& one : found.parts) reaches.emplace_back(one.answer);
+  std::vector<PartHypothesis> hypotheses;
+  for (const NextRollOfParts::Place& place : next.places) {
+    hypotheses.push_back({&found.parts[place.part].answer.part, reaches[place.part].pointers(), place.hypothesis});
+  }
+  AdviceOptions options = advice_options(found.parts.front().answer, travel);
+  options.disks = disks_for_advice(found.parts.front().answer, false);
+  next.advice = advise(hypotheses, options);
+  if (!next.advice->helps) {
+    next.why = why_no_roll(found);
+    return next;
+  }
+  for (NextRollOfParts::Place& place : next.places) {
+    place.turn_ahead = turn_ahead(found.parts[place.part].answer.part, place.hypothesis, next.advice->lengths());
+  }
+  return next;
 }
 
 }  // namespace rollfix

@@ -4,18 +4,242 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
+#include "answer/crew.hpp"
+#include "answer/either_way.hpp"
 #include "answer/observation.hpp"
+#include "answer/weighing.hpp"
 #include "belief/posterior.hpp"
-#include "bounds/bounds.hpp"
+#include "catalog/bounds/bounds.hpp"
 #include "rollfix/error.hpp"
-#include "survey.hpp"
+#include "rollfix/pulse.hpp"
+#include "rollfix/solve.hpp"
 #include "text/text.hpp"
 #include "weights.hpp"
 
+// Notation, as in docs/identify.md:
+//   weight          what a part is worth: peak and volume of its evidence, `widened` and `excess` of its noise:
+//                   PartWeight
+//   glance          the same by no more than `kNodes` joined rows
+//   rival           the likeliest part so far: below exp(-`kHopeless`) of its weight a part is not looked at further
+//   excess          so many times the noise that was said is let pass, in turn: `look`
+//   left            parts, with the cells of 256 in which bounds let the roll start: PartLeft
+// Follows docs/identify.md, "How parts are ruled out".
+// Idea: bounds rule out most parts, with noise a glance most others, and those that are left are solved.
 namespace rollfix {
 namespace {
+
+// Rows are joined to so many at most, so that a part takes a tenth of the time.
+constexpr std::size_t kNodes = 32;
+// A part is left out that has less than exp(-this) of the likeliest one's weight: joined rows tell a little less.
+constexpr double kHopeless = 25;
+
+/// What a part makes of the joined rows; nothing where it is hopeless next to the likeliest so far.
+struct Glance {
+  std::optional<PartWeight> weight;
+  bool refused = false;
+};
+
+/// The likeliest part so far, as others are held against it.
+std::optional<Rival> rival_of(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t part) {
+  if (weights.empty()) return std::nullopt;
+  const PartWeight& best = best_of(weights);
+  const double log_evidence = log_weight(catalog, best, best.widened) - std::log(catalog.entry(part).count) +
+                              std::log(catalog.entry(part).perimeter);
+  if (!std::isfinite(log_evidence)) return std::nullopt;
+  return Rival{log_evidence, best.widened};
+}
+
+/// The stretches of the boundary that these cells are.
+std::vector<Interval> stretches_of(const Cells<kFineCells>& cells, double perimeter) {
+  std::vector<Interval> stretches;
+  const double step = perimeter / kFineCells;
+  for (std::size_t k = 0; k < kFineCells; ++k) {
+    if (!cells[k]) continue;
+    const double lo = step * static_cast<double>(k);
+    if (k == 0 || !cells[k - 1]) stretches.push_back({lo, lo});
+    stretches.back().hi = step * static_cast<double>(k + 1);
+  }
+  return stretches;
+}
+
+Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, const PartLeft& left,
+                 const std::vector<PartWeight>& weights) {
+  const std::optional<Rival> rival = rival_of(catalog, weights, left.part);
+  Glance glance;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    Problem way = ways[k];
+    way.part = catalog.part(left.part);
+    Supposed supposed;
+    supposed.nodes = kNodes;
+    if (!left.cells.empty()) {
+      if (left.cells[k].none()) continue;
+      supposed.within = stretches_of(left.cells[k], way.part.perimeter());
+    }
+    std::optional<Belief> belief;
+    try {
+      belief = believe(way, observe(way), supposed);
+    } catch (const InputError&) {  // the solver says why
+      glance.refused = true;
+      continue;
+    }
+    if (rival && belief->is_hopeless(*rival)) continue;
+    PartWeight weight;
+    weight.part = left.part;
+    weight.peak = belief->evidence().peak;
+    weight.volume = belief->evidence().volume - std::log(way.part.perimeter());
+    weight.widened = belief->fit().widened;
+    weight.excess = belief->fit().excess;
+    if (!glance.weight || glance.weight->peak < weight.peak) glance.weight = weight;
+  }
+  return glance;
+}
+
+/// Of each part; adds what they weigh to the weights.
+std::vector<Glance> glances_at(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
+                               std::vector<PartWeight>& weights, const IdentifyOptions& options) {
+  std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
+  if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
+  std::vector<Glance> glances(parts.size());
+  // Those before tell what the others are held against: the same ones with however many threads.
+  for (std::size_t begin = 0, end = 1; begin < parts.size(); begin = end, end = 2 * end) {
+    end = std::min(end, parts.size());
+    Crew crew(end - begin, 1);
+    crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+      for (std::size_t k = begin + lo; k < begin + hi; ++k) glances[k] = glance_at(catalog, ways, parts[k], weights);
+    });
+    crew.require_done();
+    for (std::size_t k = begin; k < end; ++k) {
+      if (glances[k].weight) weights.push_back(*glances[k].weight);
+    }
+  }
+  return glances;
+}
+
+/// Whether a glance tells anything: not without noise, of two fingers, or with stray rows among them.
+bool can_glance(const Problem& like) {
+  const std::size_t fingers = like.felt.is_log()           ? like.felt.log->fingers.size()
+                              : like.felt.readings.empty() ? 1
+                                                           : like.felt.readings.front().fingers();
+  return like.noise && !like.robust && fingers == 1;
+}
+
+/// Of these parts those that may be something next to the likeliest of them, or of those whose weights are known
+/// already, by a roll of one finger with noise: all rows are looked at, but joined to a few, and only where bounds let
+/// a roll start. No part is left out that has more than exp(-20) of its weight.
+std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
+                                      std::vector<PartWeight> known, const IdentifyOptions& options) {
+  std::vector<PartWeight> weights = std::move(known);
+  const std::vector<Glance> glances = glances_at(catalog, like, parts, weights, options);
+  const double widened = weights.empty() ? 1 : best_of(weights).widened;
+  const double most = weights.empty() ? 0 : log_weight(catalog, best_of(weights), widened);
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Glance& one = glances[k];
+    const bool matters = one.weight && log_weight(catalog, *one.weight, widened) > most - kHopeless;
+    if (matters || one.refused) left.push_back(parts[k].part);
+  }
+  return left;
+}
+
+/// What has been found out about parts so far: bounds rule out most, with noise a glance most others, and those that
+/// are left are solved.
+class Survey {
+ public:
+  Survey(const Catalog& catalog, const Problem& like, const IdentifyOptions& options)
+      : catalog_(catalog), like_(like), options_(options) {}
+
+  /// Looks at those that may be it with so many times the noise, and that were not looked at before.
+  void look(const std::vector<std::size_t>& parts, double excess, Identified& found);
+
+  /// Of a part that something fits on.
+  const Answer& answer(std::size_t part) const { return answers_.at(part); }
+
+ private:
+  const Catalog& catalog_;
+  const Problem& like_;
+  const IdentifyOptions& options_;
+  std::unordered_set<std::size_t> searched_;
+  std::unordered_map<std::size_t, Answer> answers_;
+};
+
+/// What one part says; nothing where nothing fits.
+struct Looked {
+  std::optional<Answer> answer;
+  std::string refused;
+};
+
+Looked outcome_of(const Catalog& catalog, const Problem& like, std::size_t part) {
+  Looked outcome;
+  Problem problem = like;
+  problem.diagnose = false;
+  problem.part = catalog.part(part);
+  try {
+    Answer answer = solve(problem);
+    const auto contradicted = [](const Placement& placement) { return placement.is_contradicted; };
+    answer.placements.erase(std::remove_if(answer.placements.begin(), answer.placements.end(), contradicted),
+                            answer.placements.end());
+    if (answer.placements.empty() && answer.status == Status::complete) return outcome;
+    outcome.answer = std::move(answer);
+  } catch (const InputError& error) {
+    outcome.refused = error.what();
+  }
+  return outcome;
+}
+
+void Survey::look(const std::vector<std::size_t>& parts, double excess, Identified& found) {
+  const Doing doing("searching the catalog's parts");
+  const bool widely = excess > 1;
+  std::vector<PartLeft> bounded;
+  if (options_.use_index) {
+    bounded = Bounds(catalog_, like_, excess).left_of(parts, options_);
+  } else {
+    for (const std::size_t part : parts) bounded.push_back({part});
+  }
+  const auto is_known = [&](const PartLeft& one) { return searched_.count(one.part) > 0; };
+  bounded.erase(std::remove_if(bounded.begin(), bounded.end(), is_known), bounded.end());
+  std::vector<std::size_t> left;
+  for (const PartLeft& one : bounded) left.push_back(one.part);
+  (widely ? found.searched_widely : found.searched) += left.size();
+  searched_.insert(left.begin(), left.end());
+  found.left.insert(found.left.end(), left.begin(), left.end());
+  std::sort(found.left.begin(), found.left.end());
+  if (left.size() > options_.most_searched) {
+    found.counted = true;
+    return;
+  }
+  if (options_.use_index && can_glance(like_)) {
+    left = worth_a_look(catalog_, like_, bounded, found.weights, options_);
+  }
+  std::vector<Looked> outcomes(left.size());
+  Crew crew(left.size(), 1);
+  crew.run(options_.threads, options_.go_on, [&](std::size_t lo, std::size_t hi) {
+    for (std::size_t k = lo; k < hi; ++k) outcomes[k] = outcome_of(catalog_, like_, left[k]);
+  });
+  crew.require_done();
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (!outcomes[k].refused.empty()) found.refused.push_back({left[k], outcomes[k].refused});
+    if (!outcomes[k].answer) continue;
+    found.weights.push_back(weight_of(left[k], *outcomes[k].answer));
+    found.weights.back().widely = widely;
+    answers_.emplace(left[k], std::move(*outcomes[k].answer));
+  }
+  std::sort(found.weights.begin(), found.weights.end(),
+            [](const PartWeight& a, const PartWeight& b) { return a.part < b.part; });
+  if (!fits_well(found.weights)) return;
+  found.left.clear();
+  for (const PartWeight& weight : found.weights) found.left.push_back(weight.part);
+  for (const PartRefused& one : found.refused) found.left.push_back(one.part);
+  std::sort(found.left.begin(), found.left.end());
+}
 
 /// Throws InputError: noise that no part's answer could take.
 void require_weighable(const Catalog& catalog, const Noise& noise) {

@@ -9,7 +9,7 @@
 #include "answer/crew.hpp"
 #include "belief/posterior.hpp"
 #include "bounds/bounds.hpp"
-#include "bounds/touch_bounds.hpp"
+#include "catalog/bounds/bounds.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"

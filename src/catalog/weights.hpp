@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rollfix/identify.hpp"
+#include "rollfix/part.hpp"
 #include "rollfix/solve.hpp"
 
 // How parts are weighed against each other.
@@ -58,5 +59,12 @@ extern const Wording kOfRolls;
 /// Weights of parts of this catalog as one verdict; so many parts were searched.
 Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t searched,
                     const Likeness& likeness, const Wording& wording = kOfRolls);
+
+// Outlines that are the same are so to this share of the perimeter.
+inline constexpr double kSameScale = 1e-9;
+
+/// Whether two parts are the same outline as far as a roll can tell, seen from one of the places on each on.
+bool are_congruent(const Part& one, const std::vector<double>& from, const Part& other,
+                   const std::vector<double>& other_from, const Likeness& likeness);
 
 }  // namespace rollfix

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pair_cover.hpp"
+#include "pair_bounds.hpp"
 #include "places.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"

@@ -1,4 +1,4 @@
-#include "contact_curve.hpp"
+#include "pair_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

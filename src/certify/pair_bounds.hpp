@@ -1,14 +1,82 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "contact_curve.hpp"
 #include "locate/pair/range.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"
 
 namespace rollfix {
+
+/// The tangent's angles at all contacts of one finger while its first contact moves along a stretch, or while it
+/// pivots there.
+struct ContactStretch {
+  double lo = 0;  // first contacts
+  double hi = 0;
+  bool pivot = false;
+  std::vector<Range> angle;  // from the one at lo to the one at hi; of a pivot all that there are
+  std::vector<double> from;  // at lo
+  std::vector<double> to;    // at hi
+  std::vector<Range> rate;   // curvatures in between
+
+  double width() const { return hi - lo; }
+  /// The contact that pivots: whose range is the widest.
+  std::size_t widest() const;
+  /// How far a contact turns from end to end; of a pivot the one that pivots.
+  double turn(std::size_t contact) const;
+  /// What a sum of the angles is, each with its weight.
+  Range sum(const std::vector<double>& weights) const;
+  /// The same as the straight way from the one end to the other, which it leaves by no more than `off`.
+  struct Chord {
+    double from = 0;
+    double to = 0;
+    double off = 0;
+  };
+  Chord chord(const std::vector<double>& weights) const;
+};
+
+/// All contacts of one finger along the boundary, in the search's own numbers: what the cells of a certificate of two
+/// fingers are drawn up by.
+class ContactCurve {
+ public:
+  ContactCurve(const Part& part, std::vector<double> lengths);
+
+  enum class Cuts { corners, bends };  // bends: and where the curvature jumps
+
+  /// All first contacts from lo to hi, cut where a contact comes to a corner.
+  const std::vector<ContactStretch>& over(double lo, double hi, Cuts cuts = Cuts::corners);
+
+  /// The angle of each contact.
+  std::vector<double> angles(double s, Side side) const;
+
+ private:
+  /// A first contact that brings a contact to a corner.
+  struct Event {
+    double s = 0;
+    std::size_t contact = 0;
+    double turn = 0;
+    bool concave = false;
+    bool is_corner = false;
+  };
+
+  std::vector<Event> events(double lo, double hi, Cuts cuts) const;
+  Range curvatures(double lo, double hi) const;
+  ContactStretch smooth(double lo, double hi) const;
+  std::vector<ContactStretch> at_corner(double lo, double hi, const std::vector<Event>& events) const;
+
+  const Part& part_;
+  std::vector<double> lengths_;  // of each contact from the first one, 0 among them
+  std::vector<double> bends_;    // where the curvature jumps
+  std::map<std::tuple<double, double, Cuts>, std::vector<ContactStretch>> known_;
+};
 
 /// First contacts of finger a and of finger b.
 using PairBox = std::array<Interval, 2>;
@@ -83,6 +151,53 @@ class PairBounds {
   std::optional<double> facing_;
   double period_;
   bool closed_;
+};
+
+/// A placement as the cover sees it.
+struct CoveredPair {
+  const Placement* placement = nullptr;
+  std::optional<PairBox> box;    // holds all that belongs to it; none: the cells that are left near it do
+  bool has_cell = false;         // one that holds its start; of one without a box
+  std::optional<PairLine> line;  // of a family: all of it fits
+};
+
+/// Halves a box of pairs until some equation is off on each part of it, or the part is in a placement's box. What can't
+/// be told apart any further goes to a placement without a box that it is near to.
+class PairCover {
+ public:
+  PairCover(const Part& part, PairBounds& bounds, double tolerance, std::vector<CoveredPair>& pairs)
+      : part_(part), bounds_(bounds), tolerance_(tolerance), pairs_(pairs) {}
+
+  /// As text: docs/certificates.md.
+  std::string cells(const PairBox& whole);
+
+ private:
+  struct Cell {
+    PairBox box;
+    std::string token;      // of a leaf; "s", "t": halved
+    std::size_t first = 0;  // of its halves
+  };
+
+  std::string settled(const PairBox& box);
+  std::optional<std::size_t> owner(const PairBox& box);
+  bool belongs(const PairBox& box, std::size_t family);
+  bool is_of(const PairBox& set, const CoveredPair& pair) const;
+  bool meets(const PairBox& one, const PairBox& two, double room) const;
+  bool holds_start(const PairBox& box, const Placement& placement) const;
+  std::string left_over(const PairBox& box);
+  bool is_flat(const PairBox& box);
+  bool is_inside(const PairBox& inner, const PairBox& outer) const;
+  bool is_near(const PairBox& box, const Placement& placement) const;
+  using Shares = std::array<Interval, 3>;
+  Shares shares_near(const Interval& way, double place, double reach) const;
+  bool is_near_line(const PairBox& box, const Placement& placement, double reach) const;
+  void write(std::size_t cell, std::string& text) const;
+
+  const Part& part_;
+  PairBounds& bounds_;
+  double tolerance_;
+  std::vector<CoveredPair>& pairs_;
+  std::vector<Cell> cells_;
 };
 
 }  // namespace rollfix

@@ -1,4 +1,4 @@
-#include "pair_cover.hpp"
+#include "pair_bounds.hpp"
 
 #include <fmt/format.h>
 

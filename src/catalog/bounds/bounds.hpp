@@ -2,16 +2,32 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "cells.hpp"
 #include "clues.hpp"
-#include "index.hpp"
+#include "profile.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/solve.hpp"
+#include "rollfix/touch.hpp"
+#include "touch/cell_search.hpp"
 
 namespace rollfix {
+
+/// What all parts of a catalog are asked first, side by side in memory: 660 bytes a part, and its name.
+struct Catalog::Index {
+  std::vector<Course> courses;
+  std::vector<Profile<kCoarseCells>> coarse;
+  std::vector<Profile<kCells>> cells;
+  std::vector<std::uint8_t> measured;  // its outline is not exact: bounds on it say nothing certain
+  /// Read from the file.
+  std::function<std::vector<Profile<kFineCells>>(const std::vector<std::size_t>& parts)> fine;
+  /// Of touches: of the part itself, when it is first asked for.
+  std::function<CellPlaces(std::size_t part)> places;
+};
 
 /// A part that is left, and where on it the roll can have started, of each way in which it may have gone: without cells
 /// not that way. Nothing of any way: nothing is known.
@@ -47,6 +63,22 @@ class Bounds {
   const Catalog& catalog_;
   const Catalog::Index& index_;
   std::array<std::vector<RollClues>, 2> clues_;
+};
+
+/// Rules out parts of a catalog that touches can't be of, by cells of their boundaries.
+class TouchBounds {
+ public:
+  /// REQUIRES that the problem is valid of some part, which does not matter.
+  TouchBounds(const Catalog& catalog, const TouchProblem& like);
+
+  /// Those of the parts that are left. Throws InputError: it was told to stop, or the file is damaged.
+  std::vector<std::size_t> left_of(const std::vector<std::size_t>& parts, const IdentifyOptions& options) const;
+
+ private:
+  const Catalog& catalog_;
+  std::vector<touch::Measured> touches_;
+  touch::TouchPair pair_;
+  double radius_ = 0;
 };
 
 }  // namespace rollfix

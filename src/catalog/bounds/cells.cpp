@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "least_cost.hpp"
-#include "rounding.hpp"
+#include "profile.hpp"
 
 // Notation, as in docs/identify.md, "How parts are ruled out":
 //   N, i            cells of equal length, and the one that the roll starts in; four at a time: `Four`

@@ -1,12 +1,85 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <bitset>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
-#include "clue.hpp"
+#include "clues.hpp"
 #include "profile.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
+
+/// What one reading asks of the tangent at the start, as if its own error were none; and 1 / its variance.
+template <typename Lanes>
+struct Asked {
+  Lanes least;
+  Lanes most;
+  typename Lanes::Scalar weight;
+};
+
+/// An interval of tangents at the start, and the variance of an error that all readings share.
+template <typename Lanes>
+struct Start {
+  Lanes least;
+  Lanes most;
+  typename Lanes::Scalar shared_sd;
+};
+
+/// Lower bounds on the sum of squares of all errors, in standard deviations, over all tangents at the start and all
+/// shared errors; for several starts side by side. Where one is no more than `enough`, that is all that it says. As a
+/// function of the two together, x, the sum is convex: its slope is bisected, and the bound is where two tangents of it
+/// meet at worst.
+template <typename Lanes>
+Lanes least_cost(const Start<Lanes>& start, const std::vector<Asked<Lanes>>& asked, typename Lanes::Scalar enough) {
+  using Scalar = typename Lanes::Scalar;
+  constexpr int kHalvings = 12;
+  const auto add = [](const Lanes& x, const Asked<Lanes>& one, Lanes& cost, Lanes& slope) {
+    const Lanes miss = (x - one.most).max(Scalar(0)) - (one.least - x).max(Scalar(0));
+    cost += one.weight * miss.square();
+    slope += 2 * one.weight * miss;
+  };
+  const auto at = [&](const Lanes& x, Lanes& cost, Lanes& slope) {
+    cost.setZero();
+    slope.setZero();
+    for (const Asked<Lanes>& one : asked) add(x, one, cost, slope);
+    if (start.shared_sd > 0) {
+      add(x, {start.least, start.most, 1 / (start.shared_sd * start.shared_sd)}, cost, slope);
+    }
+  };
+  const Scalar room = std::sqrt(enough) * start.shared_sd;
+  Lanes lo = start.least - room;
+  Lanes hi = start.most + room;
+  Lanes cost_lo;
+  Lanes cost_hi;
+  Lanes slope_lo;
+  Lanes slope_hi;
+  at(lo, cost_lo, slope_lo);
+  at(hi, cost_hi, slope_hi);
+  const auto bound = [&]() -> Lanes {
+    const Lanes from_lo = cost_lo + (slope_lo < 0).select(slope_lo * (hi - lo), Lanes::Zero());
+    const Lanes from_hi = cost_hi - (slope_hi > 0).select(slope_hi * (hi - lo), Lanes::Zero());
+    return from_lo.max(from_hi);
+  };
+  for (int k = 0; k < kHalvings; ++k) {
+    const bool may_be_less = ((cost_lo.min(cost_hi) > enough) && (bound() <= enough)).any();
+    if (!may_be_less) break;
+    const Lanes middle = lo + Scalar(0.5) * (hi - lo);
+    Lanes cost;
+    Lanes slope;
+    at(middle, cost, slope);
+    const auto rises = slope >= 0;
+    hi = rises.select(middle, hi);
+    cost_hi = rises.select(cost, cost_hi);
+    slope_hi = rises.select(slope, slope_hi);
+    lo = rises.select(lo, middle);
+    cost_lo = rises.select(cost_lo, cost);
+    slope_lo = rises.select(slope_lo, slope);
+  }
+  return bound();
+}
 
 /// Some of N equal cells of the boundary.
 template <std::size_t N>
@@ -31,5 +104,9 @@ extern template Cells<kCells> cells_left(const Profile<kCells>&, const Course&, 
                                          const Cells<kCoarseCells>&);
 extern template Cells<kFineCells> cells_left(const Profile<kFineCells>&, const Course&, const Clues&,
                                              const Cells<kCells>&);
+
+/// Whether one finger's roll can have started anywhere in these cells: they are halved, with bounds from the part
+/// itself, until nothing is left or halves are not worth looking at any more.
+bool may_start(const Part& part, const Clues& clues, const Cells<kFineCells>& cells);
 
 }  // namespace rollfix

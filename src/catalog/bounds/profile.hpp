@@ -1,16 +1,31 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "rollfix/curve.hpp"
 #include "rollfix/part.hpp"
 
 // The least and the largest Theta on equal cells of the boundary. Whatever lies in a cell lies between its bounds, so
 // that nothing that fits is lost; see docs/identify.md.
 namespace rollfix {
+
+// Rounding in single precision: of sums of a few turns, radians, and of lengths, as a share, as they occur in bounds.
+inline constexpr double kTurnRounding = 2e-5;
+inline constexpr double kShareRounding = 1e-6;
+
+/// The nearest float that is no larger, and no smaller.
+inline float float_below(double value) {
+  const auto rounded = static_cast<float>(value);
+  return rounded <= value ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+inline float float_above(double value) { return -float_below(-value); }
 
 /// Cells of a profile: of the one that is looked at first, and of those that are looked at where it leaves something.
 /// Four cells of one lie in a cell of the one before.
@@ -40,5 +55,36 @@ std::optional<Profile<kCells>> profile_from(std::string_view bytes);
 /// outwards; then a checksum of that.
 std::string fine_bytes_of(const Profile<kFineCells>& fine, const Profile<kCells>& cells);
 std::optional<Profile<kFineCells>> fine_profile_from(std::string_view bytes, const Profile<kCells>& cells);
+
+/// The middles of equal cells of a part's boundary, in its frame, in single precision.
+template <std::size_t N>
+struct Middles {
+  std::array<float, N> x;
+  std::array<float, N> y;
+};
+struct CellPlaces {
+  Middles<kCoarseCells> coarse;
+  Middles<kCells> cells;
+  Middles<kFineCells> fine;
+};
+CellPlaces places_of(const Part& part);
+
+/// Where the centre of a round finger is while it touches a cell, and how the tangent points there.
+struct CentreCell {
+  Vec2 middle = Vec2::Zero();  // of a disc that holds the centres
+  double radius = 0;
+  double angle = 0;  // of the tangent, radians: at most half_turn from this
+  double half_turn = 0;
+};
+
+/// Of each of N cells, by the tangent's angles in it and its middle. `radius`: the finger's; 0: a point.
+template <std::size_t N>
+std::vector<CentreCell> centre_cells(const Profile<N>& profile, const Middles<N>& middles, double perimeter,
+                                     double radius);
+extern template std::vector<CentreCell> centre_cells(const Profile<kCoarseCells>&, const Middles<kCoarseCells>&, double,
+                                                     double);
+extern template std::vector<CentreCell> centre_cells(const Profile<kCells>&, const Middles<kCells>&, double, double);
+extern template std::vector<CentreCell> centre_cells(const Profile<kFineCells>&, const Middles<kFineCells>&, double,
+                                                     double);
 
 }  // namespace rollfix

@@ -1,12 +1,12 @@
-#include "touch_bounds.hpp"
+#include "bounds.hpp"
 
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "answer/crew.hpp"
-#include "centre_cells.hpp"
 #include "outline/turn.hpp"
+#include "profile.hpp"
 #include "touch/measured.hpp"
 #include "touch/mirror_poses.hpp"
 #include "touch/requirements.hpp"
