@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "files/byte_stream.hpp"
+#include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 

@@ -10,7 +10,6 @@
 #include <random>
 
 #include "outline/joining.hpp"
-#include "outline/nesting.hpp"
 #include "random.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "outline/chord_turns.hpp"
+#include "outline/corners.hpp"
 #include "random.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/part.hpp"

@@ -11,7 +11,7 @@
 #include <random>
 #include <sstream>
 
-#include "files/byte_stream.hpp"
+#include "files/part_record.hpp"
 #include "random.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"

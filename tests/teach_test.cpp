@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "outline/turning_span.hpp"
+#include "outline/turn.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
 #include "rollfix/error.hpp"

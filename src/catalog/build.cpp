@@ -12,7 +12,6 @@
 #include "answer/crew.hpp"
 #include "bounds/profile.hpp"
 #include "database.hpp"
-#include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"

@@ -9,7 +9,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "files/byte_stream.hpp"
+#include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

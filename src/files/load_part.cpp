@@ -9,9 +9,8 @@
 #include <variant>
 
 #include "files/formats.hpp"
-#include "files/noisy_points.hpp"
-#include "files/sparse_corners.hpp"
-#include "outline/naming.hpp"
+#include "files/point_notes.hpp"
+#include "outline/refusals.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"

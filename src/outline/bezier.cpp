@@ -12,6 +12,16 @@
 
 #include "rollfix/error.hpp"
 
+// Notation:
+//   P_k, w_k        control points and weights: `points_`, `weights_`; (w_k P_k, w_k) together: Homogeneous
+//   u               parameter in [0, 1]; B(u) by de Casteljau's algorithm: `de_casteljau`
+//   B', B''         by differences of control points; of a quotient by its rule, order after order: `projected`
+//   rest            an end at which B' = 0, as control points next to it coincide with it, or nearly
+//   v               parameter of a curve from rest, u = exp(-orders (1 - v)), or exp(-orders v): BezierFromRest
+//   blossom         the polar form of a spline's span, whose values are the control points of that span
+// Follows G. Farin, "Curves and Surfaces for CAGD" (5th ed., 2002); docs/files.md, "DXF" and "SVG".
+// Idea: from rest u is taken by orders of magnitude, so that by v the velocity vanishes nowhere. Straight curves become
+// lines, those at rest at both ends are cut in two, and a spline becomes a Bezier curve for each of its spans.
 namespace rollfix {
 
 namespace {

@@ -7,12 +7,19 @@
 #include <utility>
 
 #include "outline/joining.hpp"
-#include "outline/nesting.hpp"
-#include "outline/outer_face.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 
+// Notation:
+//   step            a curve of the drawing, and which way it is passed through: Step
+//   chain           steps that follow one another: Chain; closed ones, and those that others joined, are `whole_`
+//   end             of open chain i the number 2 i, its back 2 i + 1: EndClusters
+//   gap             `gap_`: ends that are no further apart meet, and curves no longer are left out
+//   branching       chains that hang together with a place where more than two ends meet
+// Follows docs/files.md, "Loops".
+// Idea: entities' own chains first, then what is drawn twice goes, then chains are joined where two ends meet. Of what
+// branches nothing is guessed: it is left out, or its outside is taken where that is asked for (outer_face.cpp).
 namespace rollfix {
 
 namespace {

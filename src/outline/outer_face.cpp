@@ -1,4 +1,4 @@
-#include "outline/outer_face.hpp"
+#include "outline/joining.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "outline/joining.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/outline.hpp"
 

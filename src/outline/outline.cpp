@@ -10,10 +10,17 @@
 #include <utility>
 
 #include "outline/box.hpp"
+#include "outline/refusals.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
+#include "text/text.hpp"
 
+// Notation:
+//   u, h            a parameter, and the step of a stencil of nine jets about it: Stencil
+//   stated          a jet's derivative of an order, held against differences of the order below: `compare`
+//   gap, speed      between two curves where they meet; |c'|, whose least is looked for by Brent's method
+// Follows include/rollfix/outline.hpp; differences are of eighth order in h.
 namespace rollfix {
-
 namespace {
 
 /// Stated and differenced derivatives agree to this share of the derivative's size nearby ...
@@ -269,6 +276,49 @@ Outline scaled(const Outline& outline, double factor, const std::string& unit) {
   result.gap *= factor;
   for (Curve& curve : result.curves) curve = scaled(curve, factor);
   return result;
+}
+
+namespace {
+
+constexpr const char* kKnown = "points in .csv, .dat or .txt, or gallery:NAME as in gallery:ellipse,a=2,b=1";
+
+/// "ellipse,a=2" without "gallery:", or a slip of the pen in it.
+std::string gallery_hint(const std::string& argument) {
+  std::vector<std::string> names;
+  for (const GalleryShape& shape : gallery_shapes()) names.push_back(shape.name);
+  const std::string nearest = nearest_name(argument.substr(0, argument.find(',')), names);
+  return nearest.empty() ? "" : fmt::format("; did you mean gallery:{}?", nearest);
+}
+
+}  // namespace
+
+std::string unknown_ending(const std::string& path, const std::string& known) {
+  const std::string ending = ending_of(path);
+  if (ending == ".gz") return fmt::format("{}: is compressed, expected plain text: gunzip -k {}", path, path);
+  const std::string found = ending.empty() ? "has no ending" : fmt::format("has the unknown ending '{}'", ending);
+  return fmt::format("{}: {}, expected {}{}", path, found, known, gallery_hint(path));
+}
+
+Outline load_outline(const std::string& argument, const OutlineOptions& options, std::vector<std::string>* notes) {
+  if (argument.rfind("gallery:", 0) == 0) {
+    Outline outline = gallery(argument);
+    outline.name = argument;
+    outline.unit = options.unit;
+    return outline;
+  }
+  const std::string ending = ending_of(argument);
+  if (argument == "-" || ending == ".csv" || ending == ".dat" || ending == ".txt") {
+    OutlineOptions known = options;
+    const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit, &known.airfoil);
+    return outline_through(points, argument, known, notes);
+  }
+  if (ending == ".json" || ending == ".dxf" || ending == ".svg") {
+    throw InputError(
+        fmt::format("{}: {} files are read by the library rollfix::files, as load_part(\"{}\", {{}}).part of "
+                    "<rollfix/files.hpp>; here expected {}",
+                    argument, ending, argument, kKnown));
+  }
+  throw InputError(unknown_ending(argument, kKnown));
 }
 
 }  // namespace rollfix

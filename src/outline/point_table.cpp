@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "outline/box.hpp"
-#include "outline/size_limit.hpp"
+#include "outline/refusals.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"

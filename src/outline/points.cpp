@@ -7,11 +7,19 @@
 #include <cstddef>
 
 #include "outline/box.hpp"
-#include "outline/chord_turns.hpp"
+#include "outline/corners.hpp"
 #include "outline/point_table.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
 
+// From a table of points to an outline.
+// Notation:
+//   p_k             points, with the lines of the file that they came from: NumberedPoints
+//   above, below    an airfoil's surfaces: Selig's order is one loop from the trailing edge over the top to the nose
+//                   and
+//                   back below, Lednicer's the two surfaces, each from the nose on
+//   chord           of an airfoil, from nose to tail: 1, the tail being at x = 1
+// Follows docs/files.md, "Points and scans" and "Airfoils".
 namespace rollfix {
 
 namespace {

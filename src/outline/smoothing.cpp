@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "outline/box.hpp"
+#include "outline/corners.hpp"
 #include "outline/fitted_spline.hpp"
-#include "outline/scan_corners.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "outline/chord_turns.hpp"
+#include "outline/corners.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"

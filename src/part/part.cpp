@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "not_lost.hpp"
-#include "outline/size_limit.hpp"
+#include "outline/refusals.hpp"
 #include "outline/turn.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"

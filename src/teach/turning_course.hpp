@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "outline/turning_span.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/reading.hpp"
 
 namespace rollfix {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "files/byte_stream.hpp"
+#include "files/part_record.hpp"
 #include "part/turning_range.hpp"
 
 // Notation:

@@ -9,12 +9,18 @@
 #include <utility>
 #include <variant>
 
-#include "outline/size_limit.hpp"
+#include "outline/refusals.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
 
+// Notation:
+//   placement       x -> A x + b of an INSERT within those around it, and what it makes of heights: Placement
+//   bulge           tan of a quarter of an arc's sweep, from one vertex to the next
+//   major, minor    half axes of centre + cos(u) major + sin(u) minor; an affine map leaves that form
+//   extrusion       direction that an entity's plane faces: up, or down, which mirrors it
+// Follows docs/files.md, "DXF"; Autodesk's "DXF Reference", "Arbitrary axis algorithm".
 namespace rollfix::dxf {
 
 namespace {

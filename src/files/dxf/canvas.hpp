@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/dxf/model.hpp"
-#include "files/dxf/tags.hpp"
+#include "files/dxf/read.hpp"
 #include "outline/box.hpp"
 #include "rollfix/outline.hpp"
 

@@ -13,7 +13,6 @@
 
 #include "files/dxf/canvas.hpp"
 #include "files/dxf/read.hpp"
-#include "files/dxf/tags.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"

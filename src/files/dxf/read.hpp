@@ -1,16 +1,196 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <variant>
 #include <vector>
 
-#include "files/dxf/model.hpp"
-#include "files/dxf/tags.hpp"
-
 namespace rollfix::dxf {
+
+/// A name or a text of the file in UTF-8: old files hold Windows-1252 and write other letters as \U+00E4.
+std::string decoded(std::string_view text);
+
+/// A piece of the file as a message can show it: on one line and not too long.
+std::string shown(std::string_view text);
+
+/// Names of layers and blocks are the same whatever the case of their letters.
+std::string folded(std::string_view name);
+
+/// The highest group code there is, and that of comments.
+inline constexpr int kMostCode = 1071;
+inline constexpr int kComment = 999;
+
+/// One group of a DXF file: what it is about (the code) and the value. An ASCII file's values are all text until they
+/// are asked for; a binary file's are what the code's type makes them.
+struct Tag {
+  int code = 0;
+  std::size_t place = 0;  // the value's line from 1; of a binary file the group's first byte from 0
+  std::variant<std::string_view, double, std::int64_t> value;
+};
+
+/// Goes through the groups of a file without copying it; comments (code 999) are passed over.
+class TagReader {
+ public:
+  virtual ~TagReader() = default;
+
+  /// The next group. It is an error to ask beyond 0 EOF: without one the file has been cut short.
+  virtual void next(Tag& tag) = 0;
+
+  /// "part.dxf:12" or "part.dxf: byte 340", for messages.
+  virtual std::string where(std::size_t place) const = 0;
+};
+
+/// The group's value as text; empty for a number of a binary file.
+std::string_view text_of(const Tag& tag);
+
+/// Whether this is the group 0 that starts this kind of record.
+bool starts(const Tag& tag, std::string_view record);
+
+/// The group's value as a number. Throws InputError: not a number, not finite, above kMostCoordinate.
+double real_of(const Tag& tag, const TagReader& reader);
+
+/// The group's value as a whole number. Throws InputError otherwise.
+std::int64_t whole_of(const Tag& tag, const TagReader& reader);
+
+/// Throws InputError with the place in front of what is wrong there.
+[[noreturn]] void refuse(const TagReader& reader, std::size_t place, const std::string& what);
+
+/// The reader for these bytes, ASCII or binary, which must stay. Throws InputError when they are not a DXF file's.
+std::unique_ptr<TagReader> open_tags(std::string_view bytes, const std::string& name);
+
+// What a file says, before anything is placed, hidden or drawn.
+
+using Vec3 = Eigen::Vector3d;
+
+/// Numbers for names that differ in more than the case of their letters.
+class NameTable {
+ public:
+  /// The name's number, a new one where the name is new; as it stands in the file.
+  std::size_t number_of(std::string_view raw);
+
+  /// In UTF-8, spelled as where it was first seen.
+  const std::string& name(std::size_t number) const { return names_[number]; }
+  std::size_t size() const { return names_.size(); }
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> numbers_;  // by the folded name
+  std::string last_raw_;                                  // neighbours often share a name
+  std::size_t last_ = 0;
+};
+
+struct LineShape {
+  Vec3 from = Vec3::Zero();
+  Vec3 to = Vec3::Zero();
+};
+
+/// ARC and CIRCLE, counter-clockwise as seen against the extrusion.
+struct ArcShape {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+  double start = 0;  // degrees
+  double end = 360;
+};
+
+struct EllipseShape {
+  Vec3 centre = Vec3::Zero();
+  Vec3 major = Vec3::Zero();  // the longer half axis
+  double ratio = 1;           // of the other to it
+  double start = 0;           // parameters, radians
+  double end = 0;
+};
+
+struct Vertex {
+  Vec3 point = Vec3::Zero();
+  double bulge = 0;  // tan(sweep / 4) of the arc to the next vertex, 0 for a line
+};
+
+/// LWPOLYLINE and POLYLINE.
+struct PolylineShape {
+  std::vector<Vertex> vertices;
+  bool closed = false;
+  bool spatial = false;     // a 3D polyline: its points are not turned by the extrusion
+  bool wide = false;        // has widths
+  bool spline_fit = false;  // the vertices stand for a spline
+};
+
+struct SplineShape {
+  std::int64_t degree = 0;
+  bool closed = false;
+  std::vector<double> knots;
+  std::vector<double> weights;
+  std::vector<Vec3> controls;
+  std::vector<Vec3> fits;
+};
+
+struct InsertShape {
+  std::size_t block = 0;  // number in Model::blocks
+  Vec3 at = Vec3::Zero();
+  Vec3 scale = Vec3::Ones();
+  double rotation = 0;  // degrees
+  std::int64_t columns = 1;
+  std::int64_t rows = 1;
+  double column_spacing = 0;
+  double row_spacing = 0;
+};
+
+/// What is counted and left out.
+struct OtherShape {};
+
+using Shape = std::variant<OtherShape, LineShape, ArcShape, EllipseShape, PolylineShape, SplineShape, InsertShape>;
+
+struct Entity {
+  std::size_t type = 0;   // number in Model::types
+  std::size_t layer = 0;  // number in Model::layers
+  std::size_t place = 0;
+  Vec3 extrusion = Vec3::UnitZ();
+  bool invisible = false;
+  bool paper = false;  // on a sheet of paper, not in the model
+  Shape shape;
+};
+
+struct Layer {
+  bool off = false;
+  bool frozen = false;
+};
+
+struct Block {
+  bool defined = false;
+  bool external = false;               // in another file
+  std::optional<std::size_t> again{};  // place of a second definition
+  Vec3 base = Vec3::Zero();
+  std::vector<Entity> entities;
+};
+
+/// A list that is indexed by the numbers of a name table and as long as it needs to be.
+template <class Item>
+Item& item_at(std::vector<Item>& items, std::size_t number) {
+  if (number >= items.size()) items.resize(number + 1);
+  return items[number];
+}
+
+struct Model {
+  Model() { item_at(layers, layer_names.number_of("0")); }
+
+  std::optional<std::int64_t> units;        // $INSUNITS
+  std::optional<std::int64_t> measurement;  // $MEASUREMENT
+  NameTable types;
+  NameTable layer_names;
+  std::vector<Layer> layers;  // 0 is layer "0"
+  NameTable block_names;
+  std::vector<Block> blocks;
+  std::vector<Entity> entities;
+};
+
+inline constexpr std::size_t kLayerZero = 0;
 
 /// A reader with the group that was read last.
 struct Cursor {

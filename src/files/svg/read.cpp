@@ -12,10 +12,8 @@
 #include <vector>
 
 #include "files/svg/document.hpp"
-#include "files/svg/segment.hpp"
 #include "files/svg/shapes.hpp"
-#include "files/svg/value.hpp"
-#include "outline/size_limit.hpp"
+#include "outline/refusals.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

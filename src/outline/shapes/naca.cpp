@@ -2,6 +2,14 @@
 
 #include "outline/shapes/shapes.hpp"
 
+// Notation:
+//   x               along the chord of length 1; w = sqrt(x); v = -w above and w below
+//   t(w)            half the thickness: `half_thickness`
+//   y_c(x), p       camber line, and where it is highest: Camber
+// Follows docs/gallery.md, "naca": the sections of four digits of E. N. Jacobs, K. E. Ward and R. M. Pinkerton, "The
+// characteristics of 78 related airfoil sections from tests in the variable-density wind tunnel" (NACA report 460,
+// 1933).
+// Idea: by v instead of x the outline is regular at the nose.
 namespace rollfix::shapes {
 
 namespace {

@@ -6,6 +6,10 @@
 #include "outline/shapes/shapes.hpp"
 #include "outline/turn.hpp"
 
+// Notation:
+//   u, r(u)         polar angle, and the radius there with its derivatives: RadiusJet; x = r cos u, y = r sin u
+//   a, b            as docs/gallery.md has them for each shape
+// Follows docs/gallery.md: in polar form (r e^iu)' = (r' + i r) e^iu, and so on.
 namespace rollfix::shapes {
 
 namespace {

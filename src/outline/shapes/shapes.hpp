@@ -42,10 +42,15 @@ namespace rollfix::shapes {
 
 using Curves = std::vector<Curve>;
 
-// round.cpp
+// round.cpp: ellipses, and what is drawn of lines and arcs or through random points
 Curves circle(const Parameters& parameters);
 Curves ellipse(const Parameters& parameters);
 Curves superellipse(const Parameters& parameters);
+Curves reuleaux(const Parameters& parameters);
+Curves stadium(const Parameters& parameters);
+Curves rounded_rectangle(const Parameters& parameters);
+Curves polygon(const Parameters& parameters);
+Curves spline(const Parameters& parameters);
 
 // polar.cpp: in polar form, and the open ones
 Curves limacon(const Parameters& parameters);
@@ -56,12 +61,5 @@ Curves exponential(const Parameters& parameters);
 
 // naca.cpp
 Curves naca(const Parameters& parameters);
-
-// drafted.cpp: lines and arcs, and a spline
-Curves reuleaux(const Parameters& parameters);
-Curves stadium(const Parameters& parameters);
-Curves rounded_rectangle(const Parameters& parameters);
-Curves polygon(const Parameters& parameters);
-Curves spline(const Parameters& parameters);
 
 }  // namespace rollfix::shapes

@@ -20,4 +20,9 @@ std::string noisy_points_note(const std::vector<Vec2>& points, const OutlineOpti
 /// tolerance. Empty where they were smoothed, and where they hardly scatter.
 std::string noisy_crossing_hint(const std::vector<Vec2>& points, const OutlineOptions& options);
 
+/// What to tell who gave these points, of which the part was made: that corners were made of some that look like a
+/// curve sampled sparsely, where, and how to have it round. Empty where there are none, or where they look meant: a
+/// corner whose neighbours go straight on, or a polygon's, whose neighbours are corners as well.
+std::string sparse_corners_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part);
+
 }  // namespace rollfix

@@ -9,6 +9,9 @@
 
 namespace rollfix {
 
+/// "{path}: has the unknown ending '.step', expected {known}", and what gallery shape may have been meant.
+std::string unknown_ending(const std::string& path, const std::string& known);
+
 /// Points of an outline, or curves of a drawing. A part takes some 600 bytes for each.
 inline constexpr std::size_t kMostPieces = 10'000'000;
 
