@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "diagnosis.hpp"
-#include "part/not_lost.hpp"
+#include "part/part_data.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 

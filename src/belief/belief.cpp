@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
-#include "part/not_lost.hpp"
+#include "part/part_data.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

@@ -7,7 +7,7 @@
 
 #include "belief/one/grid.hpp"
 #include "capi/fixed_pool.hpp"
-#include "log/odometer.hpp"
+#include "log/roll_rows.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/part.hpp"
 

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "text/control.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "rollfix/error.hpp"
-#include "text/control.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

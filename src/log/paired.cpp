@@ -3,16 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "log/log_rows.hpp"
+#include "log/roll_rows.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
 #include "text/text.hpp"
 
-// Two logs, of a finger each, as one of both.
+// Two logs, of a finger each, as one of both: whole ones, and row by row.
+// Which rows belong together, of two logs a and b whose next rows have the times t_a and t_b:
+//   t_a = t_b        both, but for kSameInstant of the time since the logs began: clocks round
+//   t_a < t_b        a's row has no partner, as times of a log grow: it is skipped
+// Without times rows are counted, those that can't be read among them. Of whole logs rows without a partner are skipped
+// at both ends only, elsewhere they are refused. Follows docs/rolling.md, "Logs of two fingers".
 namespace rollfix {
 namespace {
 
@@ -131,5 +139,231 @@ Log paired(Log a, Log b) {
   a.notes.clear();  // each was of one finger
   return a;
 }
+
+namespace {
+
+/// A row that waits for its partner; RowKind::none: it could not be read.
+struct WaitingRow {
+  RowKind kind = RowKind::none;
+  LogRow row;
+};
+
+/// One of the logs.
+struct OneLog {
+  OneLog(const std::string& name, LogOptions of_log, bool is_pin)
+      : options(std::move(of_log)), of_pin(is_pin), reader(name, options, of_pin) {}
+
+  bool knows_columns() const { return reader.knows_columns(); }
+  bool has_time() const { return reader.columns().front().has(Column::time); }
+  void begin_anew() {
+    reader = RowReader(reader.name(), options, of_pin);
+    rows.clear();
+    began.reset();
+  }
+
+  LogOptions options;
+  bool of_pin;  // of a wheel without skin
+  RowReader reader;
+  std::deque<WaitingRow> rows;
+  std::optional<double> began{};  // time of its first row
+};
+
+LogLine malformed(const std::string& why) {
+  LogLine line;
+  line.kind = LineKind::malformed;
+  line.message = why;
+  return line;
+}
+
+}  // namespace
+
+struct PairedStream::State {
+  State(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers, const Noise& noise,
+        const LogOptions& options, bool robust, bool b_is_pin)
+      : sides{OneLog{names[0], in_unit_of(part, options_for_finger(options, 0)), false},
+              OneLog{names[1], in_unit_of(part, options_for_finger(options, 1)), b_is_pin}},
+        rolls(part, std::move(fingers), noise, robust, options.any_part, names[0]) {}
+
+  void push(std::size_t which, std::string_view line);
+  void drop_front(std::size_t which);
+  void match();
+  std::vector<LogLine> take() { return std::exchange(found_, {}); }
+
+  std::array<OneLog, 2> sides;
+  RollRows rolls;
+  bool holds = false;  // one log began anew: the other one's rows may be of the time before
+
+ private:
+  void start();
+  void match_fronts();
+  void match_by_time();
+  void take_fronts();
+  double slack() const;
+
+  std::vector<LogLine> found_;
+};
+
+/// Both logs' columns are known.
+void PairedStream::State::start() {
+  const Columns& a = sides[0].reader.columns().front();
+  const Columns& b = sides[1].reader.columns().front();
+  for (const OneLog& side : sides) {
+    if (side.reader.columns().size() == 1) continue;
+    throw InputError(
+        fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", side.reader.name()));
+  }
+  if (b.of_pin && (a.kind != LogKind::contact || !a.has(Column::x))) {
+    throw InputError(fmt::format(
+        "{}: expected columns 'u', 'psi', 'x' and 'y' beside a wheel: it says something by where its pin was as seen "
+        "from the finger; without them any place on the part fits",
+        sides[0].reader.name()));
+  }
+  if (a.kind != b.kind) {
+    throw InputError(fmt::format("{} and {}: expected the same columns of both fingers, found logs of different kinds",
+                                 sides[0].reader.name(), sides[1].reader.name()));
+  }
+  if (sides[0].has_time() != sides[1].has_time()) {
+    const std::size_t with = sides[0].has_time() ? 0 : 1;
+    throw InputError(fmt::format("{} has a column 'time' and {} has none: expected the same instants in both",
+                                 sides[with].reader.name(), sides[1 - with].reader.name()));
+  }
+  rolls.start({a, b}, {sides[0].reader.name(), sides[1].reader.name()});
+}
+
+void PairedStream::State::push(std::size_t which, std::string_view line) {
+  OneLog& side = sides[which];
+  WaitingRow next;
+  try {
+    next.kind = side.reader.read(line, next.row);
+  } catch (const InputError& error) {
+    if (!side.knows_columns()) throw;
+    LogLine& skipped = found_.emplace_back(malformed(error.what()));
+    skipped.goes_back = dynamic_cast<const NotLater*>(&error) != nullptr;
+    if (!side.has_time()) side.rows.push_back({});
+    return match();
+  }
+  const bool may_be_header = next.kind == RowKind::none || !rolls.has_started();
+  if (may_be_header && sides[0].knows_columns() && sides[1].knows_columns()) start();
+  if (next.kind == RowKind::none) return match();
+  side.reader.accept(next.row);
+  if (!side.began) side.began = next.row.time;
+  side.rows.push_back(next);
+  match();
+}
+
+void PairedStream::State::drop_front(std::size_t which) {
+  OneLog& side = sides[which];
+  const WaitingRow gone = side.rows.front();
+  side.rows.pop_front();
+  if (gone.kind == RowKind::none) return;  // it was told
+  const std::string at = gone.row.time ? fmt::format(" at the time {}", *gone.row.time) : "";
+  found_.push_back(
+      malformed(fmt::format("{}: {} has no row{} to go with it: it is left out",
+                            where(side.reader.name(), gone.row.line), sides[1 - which].reader.name(), at)));
+}
+
+void PairedStream::State::match() {
+  if (!rolls.has_started()) return;
+  const auto is_full = [](const OneLog& side) { return side.rows.size() >= kMostWaiting; };
+  // Whoever waits for the other log to begin anew can't wait for ever.
+  if (is_full(sides[0]) && is_full(sides[1])) holds = false;
+  while (!sides[0].rows.empty() && !sides[1].rows.empty()) {
+    const std::size_t before = sides[0].rows.size() + sides[1].rows.size();
+    sides[0].has_time() ? match_by_time() : match_fronts();
+    if (sides[0].rows.size() + sides[1].rows.size() == before) return;  // they wait
+  }
+}
+
+/// Without times.
+void PairedStream::State::match_fronts() {
+  const bool both = sides[0].rows.front().kind != RowKind::none && sides[1].rows.front().kind != RowKind::none;
+  if (both) return take_fronts();
+  for (const std::size_t which : {0U, 1U}) drop_front(which);
+}
+
+double PairedStream::State::slack() const {
+  double elapsed = 0;
+  for (const OneLog& side : sides) elapsed = std::max(elapsed, *side.rows.front().row.time - *side.began);
+  return kSameInstant * elapsed;
+}
+
+void PairedStream::State::match_by_time() {
+  const double apart = *sides[0].rows.front().row.time - *sides[1].rows.front().row.time;
+  if (std::abs(apart) <= slack()) return take_fronts();
+  if (!holds) drop_front(apart < 0 ? 0 : 1);
+}
+
+void PairedStream::State::take_fronts() {
+  holds = false;
+  const WaitingRow a = sides[0].rows.front();
+  const WaitingRow b = sides[1].rows.front();
+  for (OneLog& side : sides) side.rows.pop_front();
+  if (a.kind == RowKind::off || b.kind == RowKind::off) {
+    found_.push_back(rolls.off());
+    return;
+  }
+  LogRow both = a.row;
+  both.fingers = PerFinger<FingerCells>(a.row.fingers[0], b.row.fingers[0]);
+  const PerFinger<std::size_t> lines(a.row.line, b.row.line);
+  try {
+    rolls.require_on_finger(both, lines);
+  } catch (const InputError& error) {
+    found_.push_back(malformed(error.what()));
+    return;
+  }
+  found_.push_back(rolls.take(both, lines));
+}
+
+PairedStream::PairedStream(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers,
+                           const Noise& noise, const LogOptions& options, bool robust, bool b_is_pin)
+    : state_(std::make_unique<State>(names, part, std::move(fingers), noise, options, robust, b_is_pin)) {}
+PairedStream::~PairedStream() = default;
+PairedStream::PairedStream(PairedStream&&) noexcept = default;
+PairedStream& PairedStream::operator=(PairedStream&&) noexcept = default;
+
+std::vector<LogLine> PairedStream::push(std::size_t which, std::string_view line) {
+  state_->push(which, line);
+  return state_->take();
+}
+
+void PairedStream::resume(std::size_t which) {
+  OneLog& side = state_->sides[which];
+  if (side.knows_columns() && !side.has_time()) {
+    throw InputError(
+        fmt::format("{}: the connection dropped, and there is no column 'time', so that it is not known which rows of "
+                    "{} belong to those that come now; add the times",
+                    name(which), name(1 - which)));
+  }
+  side.reader.resume();
+  state_->rolls.skip();
+}
+
+std::vector<LogLine> PairedStream::restart(std::size_t which) {
+  OneLog& side = state_->sides[which];
+  while (!side.rows.empty()) state_->drop_front(which);
+  side.begin_anew();
+  state_->rolls.restart();
+  state_->holds = true;
+  return state_->take();
+}
+
+std::vector<LogLine> PairedStream::finish() {
+  for (const std::size_t which : {0U, 1U}) {
+    while (!state_->sides[which].rows.empty()) state_->drop_front(which);
+  }
+  return state_->take();
+}
+
+bool PairedStream::is_ahead(std::size_t which) const { return state_->sides[which].rows.size() >= kMostWaiting; }
+
+bool PairedStream::has_waiting(std::size_t which) const { return !state_->sides[which].rows.empty(); }
+
+LogKind PairedStream::kind() const { return state_->rolls.has_started() ? state_->rolls.kind() : LogKind::contact; }
+
+std::size_t PairedStream::fingers() const { return state_->rolls.fingers(); }
+
+std::size_t PairedStream::lines(std::size_t which) const { return state_->sides[which].reader.lines(); }
+
+const std::string& PairedStream::name(std::size_t which) const { return state_->sides[which].reader.name(); }
 
 }  // namespace rollfix

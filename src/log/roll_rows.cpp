@@ -2,13 +2,72 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "rollfix/error.hpp"
 
+// Notation:
+//   length, turn    of a row from the first contact of its roll: Odometer adds increments up, or takes off the first
+//                   row
+//   u, psi          of a row of contacts, unwrapped as they grow: OngoingRoll, GrowingAngle
+//   before, now     the row before this one as it is understood by now, and this one: Steps
+// Follows docs/rolling.md, "Logs" and "A log that grows". Sums keep what rounding drops: A. Neumaier,
+// "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen" (1974).
+// Idea: each row is measured as it comes, bit by bit as all of the log would be. A jump begins a new roll; of a robust
+// reader it is a stray row first, and all is as it was before it.
 namespace rollfix {
+
+double Odometer::ExactSum::add(double term) {
+  const double next = sum_ + term;
+  rest_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
+  sum_ = next;
+  return sum_ + rest_;
+}
+
+Reading Odometer::add(const FingerCells& row) {
+  const bool is_first_contact = starts_here_;
+  starts_here_ = false;
+  if (kind_ == LogKind::increments) {
+    return is_first_contact ? Reading{} : Reading{length_.add(row.place.value), turn_.add(row.angle.value)};
+  }
+  if (is_first_contact) start_ = row;
+  return {row.place.value - start_.place.value, row.angle.value - start_.angle.value};
+}
+
+namespace {
+
+/// Whether a reader of these increments would add them up to the rows' length and turn, to the bit.
+bool add_up(const std::vector<double>& distance, const std::vector<double>& dturn, const FingerRows& rows) {
+  if (distance.size() != rows.length.size() || dturn.size() != rows.turn.size()) return false;
+  Odometer odometer(LogKind::increments, false);
+  for (std::size_t row = 0; row < distance.size(); ++row) {
+    const Reading sum = odometer.add({{distance[row], 0}, {dturn[row], 0}});
+    if (sum.length[0] != rows.length[row] || sum.turn != rows.turn[row]) return false;
+  }
+  return true;
+}
+
+/// Steps that a reader adds up to these sums, to the rounding of a step.
+std::vector<double> steps_to(const std::vector<double>& sums) {
+  std::vector<double> steps;
+  Odometer odometer(LogKind::increments, false);
+  double before = 0;
+  for (const double sum : sums) {
+    steps.push_back(sum - before);
+    before = odometer.add({{steps.back(), 0}, {}}).length[0];  // what rounding took comes back with the next step
+  }
+  return steps;
+}
+
+}  // namespace
+
+Increments increments_of(const FingerRows& rows) {
+  if (add_up(rows.distance, rows.dturn, rows)) return {rows.distance, rows.dturn};
+  return {steps_to(rows.length), steps_to(rows.turn)};  // rows made or changed without them
+}
 
 LogOptions in_unit_of(const Part& part, LogOptions options) {
   if (options.unit.empty()) options.unit = part.unit();

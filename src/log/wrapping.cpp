@@ -7,6 +7,14 @@
 
 #include "rollfix/error.hpp"
 
+// Notation:
+//   a_k             angles of a column, or places on a finger that goes round, of period 2 pi or of its whole length
+//   step            a_k - a_k-1; `turns_in`: the whole periods that it takes back if the column is wrapped
+//   far             a step over more than half a period: another one where the column is not wrapped
+//   rounding        of each a_k, half a unit of its last digit
+// Follows docs/rolling.md, "Logs".
+// Idea: a column that leaves a full period was never wrapped. In one that stays within it far steps are taken back, and
+// said to be unclear where they are not as short, or as much alike, as the steps around them.
 namespace rollfix {
 namespace {
 

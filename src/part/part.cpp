@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "not_lost.hpp"
 #include "outline/refusals.hpp"
 #include "outline/turn.hpp"
 #include "part_data.hpp"
@@ -17,7 +16,64 @@
 #include "text/text.hpp"
 #include "turning_builder.hpp"
 
+// Notation:
+//   s, base         a place by arc length, and the same on the first lap; x on its panel, u on its curve
+//   bend, trend     sign of Theta', and of Theta'', on a spiral that turns by more than rounding: `bend_of`, `trend_of`
+//   area            twice the polygon's, whose sign tells the direction of an outline: `rough_area`
+// Follows docs/search.md, "Once per part".
+// Idea: an inflection is where the bend changes, a vertex where the trend does, with no jump in between; what is flat
+// for rounding is passed over.
 namespace rollfix {
+namespace {
+
+/// Curvatures that are this much alike, by the larger of them or by that of a circle as long as the part, do not jump.
+constexpr double kAlike = 1e-6;
+/// No stretch is halved more often: the turn of one so short is its rounding.
+constexpr int kMostHalvings = 40;
+
+class Sampler {
+ public:
+  explicit Sampler(const Part& part) : part_(part), longest_(kSampleShare * part.perimeter()) {}
+
+  std::vector<BoundarySample> samples() {
+    for (const Spiral& spiral : part_.turning().spirals()) {
+      if (out_.empty() || jumps(out_.back(), spiral.start)) add(spiral.lo, spiral.start);
+      fill(spiral, {spiral.lo, spiral.hi}, spiral.start, spiral.end, 0);
+      add(spiral.hi, spiral.end);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void add(double s, const Turning& at) { out_.push_back({s, part_.point(s), at.angle, at.curvature}); }
+
+  bool jumps(const BoundarySample& before, const Turning& after) const {
+    const double size =
+        std::max({std::abs(before.curvature), std::abs(after.curvature), 2 * std::numbers::pi / part_.perimeter()});
+    return std::abs(after.angle - before.tangent) > kAlike ||
+           std::abs(after.curvature - before.curvature) > kAlike * size;
+  }
+
+  /// What lies between two samples, halved until they are near enough.
+  void fill(const Spiral& spiral, const Interval& range, const Turning& first, const Turning& last, int halvings) {
+    const bool is_near = range.width() <= longest_ && std::abs(last.angle - first.angle) <= kSampleTurn;
+    if (is_near || halvings == kMostHalvings) return;
+    const double middle = range.middle();
+    if (!(range.lo < middle && middle < range.hi)) return;  // a bend so small that its places are one number
+    const Turning at = part_.turning().on_spiral(spiral, middle);
+    fill(spiral, {range.lo, middle}, first, at, halvings + 1);
+    add(middle, at);
+    fill(spiral, {middle, range.hi}, at, last, halvings + 1);
+  }
+
+  const Part& part_;
+  double longest_;
+  std::vector<BoundarySample> out_;
+};
+
+}  // namespace
+
+std::vector<BoundarySample> samples_of(const Part& part) { return Sampler(part).samples(); }
 
 namespace {
 

@@ -2,12 +2,13 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "rollfix/part.hpp"
 #include "turning_builder.hpp"
-#include "turning_tree.hpp"
+#include "turning_range.hpp"
 
 namespace rollfix {
 
@@ -59,5 +60,9 @@ struct PartAccess {
     return Part(std::make_shared<const Data>(std::move(data)));
   }
 };
+
+/// Throws InputError for a length below what arc lengths on the part are accurate to. `what` was expected, such as "a
+/// disk with a radius"; `cure` ends the message.
+void require_not_lost(const Part& part, double length, const std::string& what, const std::string& cure);
 
 }  // namespace rollfix

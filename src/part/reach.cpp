@@ -9,13 +9,19 @@
 #include <queue>
 #include <utility>
 
-#include "boundary_tree.hpp"
 #include "cursor.hpp"
-#include "not_lost.hpp"
+#include "part_data.hpp"
 #include "reach_search.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation, as in docs/reach.md:
+//   stance          contacts on a stretch of a spiral, or pivots at a corner; decided: possible or not: Decision
+//   arc, pivot      stretches of s with possible stances, and at corners ranges of tangents: Reach
+//   k, depth        the finger's curvature, and how deep a point of the boundary is in it: `deepness`
+//   slack           what depth is let pass
+// Follows docs/reach.md, "How it is decided" and "The slack".
+// Idea: decisions of reach_search.cpp come in the order of the boundary, and what joins on is one arc.
 namespace rollfix {
 namespace {
 

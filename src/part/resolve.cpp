@@ -1,4 +1,4 @@
-#include "resolve.hpp"
+#include "turning_builder.hpp"
 
 #include <fmt/format.h>
 

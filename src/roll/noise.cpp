@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "log/odometer.hpp"
+#include "log/roll_rows.hpp"
 #include "log/wrapping.hpp"
-#include "part/not_lost.hpp"
+#include "part/part_data.hpp"
 #include "roll/normal_numbers.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"

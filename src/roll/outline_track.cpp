@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "part/not_lost.hpp"
+#include "part/part_data.hpp"
 #include "roll/track.hpp"
 #include "rollfix/error.hpp"
 

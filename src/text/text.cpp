@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "text/control.hpp"
 
 namespace rollfix {
 

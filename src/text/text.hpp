@@ -79,4 +79,7 @@ bool has_only_returns(std::string_view text);
 /// What is wrong with such a file, and what makes another of it.
 std::string about_only_returns(const std::string& name);
 
+/// Whether a character of UTF-8 does something to a terminal: C0, DEL, C1, line ends, and marks of direction.
+bool is_control(std::string_view character);
+
 }  // namespace rollfix

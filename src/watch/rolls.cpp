@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "part/not_lost.hpp"
+#include "part/part_data.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

@@ -7,7 +7,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "log/odometer.hpp"
+#include "log/roll_rows.hpp"
 #include "rollfix/log.hpp"
 #include "signals.hpp"
 

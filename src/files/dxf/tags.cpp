@@ -10,7 +10,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "files/dxf/read.hpp"
 #include "outline/box.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "files/svg/document.hpp"
-#include "files/svg/shapes.hpp"
 #include "outline/box.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "part/cursor.hpp"
-#include "part/turning_tree.hpp"
+#include "part/turning_range.hpp"
 #include "range.hpp"
 #include "rollfix/part.hpp"
 

@@ -1,9 +1,13 @@
-#include "log/header/column_names.hpp"
+#include "log/header/log_header.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "rollfix/error.hpp"
@@ -130,6 +134,229 @@ std::vector<ColumnSource> parse_columns(std::string_view text) {
     }
   }
   return sources;
+}
+
+namespace {
+
+/// What people call a column, the likeliest first.
+struct Habit {
+  Column column;
+  std::array<std::string_view, 10> words;
+};
+
+constexpr std::array kHabits = {
+    Habit{Column::time, {"time", "stamp", "timestamp", "t", "clock", "ts"}},
+    Habit{Column::u, {"u", "contact", "skin", "tactile", "taxel", "cop", "touch", "pad", "angle"}},
+    Habit{Column::psi, {"psi", "yaw", "orientation", "heading", "rotation", "rot", "joint", "theta", "phi", "finger"}},
+    Habit{Column::x, {"x", "px", "posx"}},
+    Habit{Column::y, {"y", "py", "posy"}},
+    Habit{Column::length,
+          {"length", "travelled", "traveled", "path", "arc", "odometer", "odo", "dist", "distance", "s"}},
+    Habit{Column::turn, {"turn", "tangent", "heading", "yaw", "theta", "angle", "psi"}},
+    Habit{Column::distance, {"distance", "step", "encoder", "dist", "ds", "dl", "wheel", "delta"}},
+    Habit{Column::dturn, {"dturn", "gyro", "dtheta", "dyaw", "dpsi", "dheading"}},
+};
+
+/// "contact_deg" as contact, deg; "skinL" as skin, l.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  const std::string letters = lower_case(name);
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    const char c = letters[k];
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    const bool begins = k > 0 && c != name[k] && letters[k - 1] == name[k - 1];  // a capital behind none
+    if ((begins || !is_letter) && !words.back().empty()) words.emplace_back();
+    if (is_letter) words.back() += c;
+  }
+  if (words.back().empty() && words.size() > 1) words.pop_back();
+  return words;
+}
+
+/// What people tell two fingers apart by, in the order of kFingerSuffixes.
+constexpr std::array<std::array<std::string_view, 2>, 3> kFingerWords = {{{"a", "b"}, {"left", "right"}, {"l", "r"}}};
+
+/// The word that says which finger a name is of, as in "contact_deg_a", "left_skin", "skinL_deg"; the end where none
+/// does.
+std::vector<std::string>::const_iterator finger_word(const std::vector<std::string>& words) {
+  return std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+    return words.size() > 1 && std::any_of(kFingerWords.begin(), kFingerWords.end(),
+                                           [&](const auto& two) { return word == two[0] || word == two[1]; });
+  });
+}
+
+/// The finger that a name is of: its place in kFingerSuffixes.
+std::optional<std::size_t> finger_in(const std::vector<std::string>& words) {
+  const auto word = finger_word(words);
+  if (word == words.end()) return std::nullopt;
+  return std::any_of(kFingerWords.begin(), kFingerWords.end(), [&](const auto& two) { return *word == two[1]; }) ? 1
+                                                                                                                 : 0;
+}
+
+/// How much a name sounds like a column: 0 not at all.
+int likeness(const HeaderName& header, Column column) {
+  const auto* const habit =
+      std::find_if(kHabits.begin(), kHabits.end(), [&](const Habit& one) { return one.column == column; });
+  if (habit == kHabits.end()) return 0;
+  int best = 0;
+  for (std::size_t k = 0; k < habit->words.size() && !habit->words[k].empty(); ++k) {
+    const std::string_view word = habit->words[k];
+    const int worth = static_cast<int>(habit->words.size() - k);
+    for (const std::string& said : words_of(header.name)) {
+      if (said == word) best = std::max(best, 20 + worth);
+      if (word.size() > 2 && said.find(word) != std::string::npos) best = std::max(best, worth);
+    }
+  }
+  return best;
+}
+
+/// A header's column that may be one of ours.
+struct Guess {
+  Column column = Column::u;
+  std::size_t cell = Columns::kNone;
+  int likeness = 0;
+};
+
+/// Says what the columns might be, each of the header's used once.
+class Guesses {
+ public:
+  Guesses(const std::vector<HeaderName>& header, const Columns& found) : header_(header), found_(found) {
+    for (const std::size_t cell : found.cell) {
+      if (cell != Columns::kNone) taken_.push_back(cell);
+    }
+  }
+
+  /// A column that the header does not have; nothing where it does.
+  void add(Column column, bool is_needed) {
+    if (found_.has(column)) return;
+    Guess best{column};
+    for (std::size_t k = 0; k < header_.size(); ++k) {
+      if (std::find(taken_.begin(), taken_.end(), k) != taken_.end()) continue;
+      const int here = likeness(header_[k], column);
+      if (here > best.likeness) best = {column, k, here};
+    }
+    if (best.likeness == 0 && !is_needed) return;
+    if (best.likeness > 0) taken_.push_back(best.cell);
+    guesses_.push_back(best);
+  }
+
+  int likeness_of_all() const {
+    int sum = 0;
+    for (const Guess& guess : guesses_) sum += guess.likeness > 0 ? 100 + guess.likeness : 0;
+    return sum;
+  }
+
+  std::vector<std::string> fields() const {
+    std::vector<std::string> fields;
+    for (const Guess& guess : guesses_) {
+      const std::string column = found_.called(guess.column);
+      if (guess.likeness == 0) {
+        fields.push_back(fmt::format("{}=NAME", column));
+        continue;
+      }
+      const HeaderName& header = header_[guess.cell];
+      const std::string unit = header.unit.empty() ? unit_in_name(header.name, guess.column, "") : "";
+      fields.push_back(fmt::format("{}={}{}", column, header.name, unit.empty() ? "" : ":" + unit));
+    }
+    return fields;
+  }
+
+ private:
+  const std::vector<HeaderName>& header_;
+  const Columns& found_;
+  std::vector<std::size_t> taken_;
+  std::vector<Guess> guesses_;
+};
+
+std::vector<std::string> fields_for(const std::vector<HeaderName>& header, const Columns& found, bool with_time) {
+  const auto half = [&](const ColumnPair& pair) { return found.has(pair.place) != found.has(pair.angle); };
+  const bool any_half = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), half);
+  const auto whole = [&](const ColumnPair& pair) { return found.has(pair.place) && found.has(pair.angle); };
+  const bool any_whole = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), whole);
+  std::optional<Guesses> best;
+  for (const ColumnPair& pair : kColumnPairs) {
+    if (any_half ? !half(pair) : any_whole && !whole(pair)) continue;
+    Guesses guesses(header, found);
+    guesses.add(pair.place, true);
+    guesses.add(pair.angle, true);
+    if (!best || guesses.likeness_of_all() > best->likeness_of_all()) best.emplace(guesses);
+  }
+  if (with_time) best->add(Column::time, false);
+  best->add(Column::x, found.has(Column::y));
+  best->add(Column::y, found.has(Column::x));
+  return best->fields();
+}
+
+/// Those of one finger and what is of no finger; the others' places stay, without names.
+std::vector<HeaderName> of_finger(const std::vector<HeaderName>& header, std::size_t finger) {
+  std::vector<HeaderName> result = header;
+  for (HeaderName& one : result) {
+    if (finger_in(words_of(one.name)).value_or(finger) != finger) one = {};
+  }
+  return result;
+}
+
+/// Whether the names are of two fingers, in ways of their own.
+bool names_two_fingers(const std::vector<HeaderName>& header) {
+  std::array<int, 2> count{};
+  for (const HeaderName& one : header) {
+    if (const auto finger = finger_in(words_of(one.name))) ++count[*finger];
+  }
+  return count[0] >= 2 && count[1] >= 2;
+}
+
+}  // namespace
+
+std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit) {
+  std::vector<std::string> words = words_of(name);
+  if (const auto word = finger_word(words); word != words.end()) words.erase(word);
+  if (words.size() < 2) return "";
+  const std::optional<Unit> unit = unit_named(words.back());
+  if (!unit || !takes(column, unit->dimension)) return "";
+  const bool changes =
+      unit->dimension == Dimension::length ? unit->name != part_unit : !conversion_to_plain(*unit).is_identity();
+  return changes ? std::string(unit->name) : "";
+}
+
+std::string other_finger_note(const std::vector<HeaderName>& header, const Columns& found) {
+  const ColumnPair& pair = kColumnPairs[static_cast<std::size_t>(found.kind)];
+  const auto is_taken = [&](std::size_t k) {
+    return std::find(found.cell.begin(), found.cell.end(), k) != found.cell.end();
+  };
+  const std::optional<std::size_t> own = finger_in(words_of(header[found[pair.place]].name));
+  std::vector<std::string_view> others;
+  for (std::size_t k = 0; k < header.size(); ++k) {
+    const std::optional<std::size_t> finger = finger_in(words_of(header[k].name));
+    if (is_taken(k) || !finger || finger == own) continue;
+    if (likeness(header[k], pair.place) > 0 || likeness(header[k], pair.angle) > 0) others.push_back(header[k].name);
+  }
+  if (others.empty()) return "";
+  const std::string cure =
+      names_two_fingers(header) ? fmt::format("; both are taken with `columns` {}", suggested_columns(header, {})) : "";
+  return fmt::format("this is about one finger: the columns of another, {}, are not looked at{}",
+                     fmt::join(others, ", "), cure);
+}
+
+bool holds_columns_of(const std::vector<HeaderName>& header, std::size_t finger) {
+  return std::any_of(header.begin(), header.end(), [&](const HeaderName& one) {
+    if (finger_in(words_of(one.name)).value_or(finger) != finger) return false;
+    return std::any_of(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& pair) {
+      return likeness(one, pair.place) > 0 || likeness(one, pair.angle) > 0;
+    });
+  });
+}
+
+std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found) {
+  std::vector<std::string> fields;
+  const bool is_of_two = found.suffix.empty() && names_two_fingers(header);
+  for (std::size_t finger = 0; finger < (is_of_two ? 2U : 1U); ++finger) {
+    Columns own = found;
+    if (is_of_two) own.suffix = kFingerSuffixes[finger];
+    const std::size_t whose = own.suffix == kFingerSuffixes[1] ? 1 : 0;
+    const std::vector<std::string> more =
+        fields_for(own.suffix.empty() ? header : of_finger(header, whose), own, finger == 0);
+    fields.insert(fields.end(), more.begin(), more.end());
+  }
+  return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
 }
 
 }  // namespace rollfix

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "log/header/column_names.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
