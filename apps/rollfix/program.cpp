@@ -22,7 +22,6 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
-#include "rollfix/help/option_groups.hpp"
 #include "rollfix/output/option_names.hpp"
 #include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/report.hpp"

@@ -9,7 +9,7 @@
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"

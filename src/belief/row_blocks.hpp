@@ -13,8 +13,9 @@
 #include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"
 
-// The fingers' centres in the world as evidence: they go along the part's offset curve.
 namespace rollfix::belief {
+
+// The fingers' centres in the world as evidence: they go along the part's offset curve.
 
 inline constexpr double kHalfTurn = std::numbers::pi;
 

@@ -8,8 +8,9 @@
 #include "rollfix/part.hpp"
 #include "rollfix/solve.hpp"
 
-// How parts are weighed against each other.
 namespace rollfix {
+
+// How parts are weighed against each other.
 
 // A part that has less than exp(-this) of the likeliest one's weight is nothing: far less than is listed.
 inline constexpr double kNothing = 20;

@@ -10,7 +10,7 @@
 
 #include "cli.hpp"
 #include "rollfix/outline.hpp"
-#include "rollfix/watch/touch_watcher.hpp"
+#include "rollfix/watch/watcher.hpp"
 #include "touch/touch_cases.hpp"
 #include "watch_child.hpp"
 

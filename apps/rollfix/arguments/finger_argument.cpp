@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/units.hpp"

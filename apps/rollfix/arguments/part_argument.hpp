@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rollfix/files.hpp"
+#include "rollfix/identify.hpp"
 #include "rollfix/part.hpp"
 
 namespace rollfix::app {
@@ -56,5 +57,14 @@ Part load_part(const PartArgument& argument, std::vector<std::string>& notes, st
 
 /// That a part was given clockwise, and what follows from it.
 std::string reversed_note(const Part& part);
+
+/// --catalog FILE, instead of a PART.
+void add_catalog_argument(CLI::App& command, std::string& argument);
+
+/// Throws InputError: a PART and a catalog, neither, or what says how a PART is loaded next to a catalog.
+void require_part_or_catalog(const std::string& command, const PartArgument& part, const std::string& catalog);
+
+/// Throws InputError: --prior was given, where it is asked which part it is.
+void require_no_prior(const std::string& prior);
 
 }  // namespace rollfix::app

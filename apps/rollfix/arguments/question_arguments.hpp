@@ -6,8 +6,21 @@
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/question.hpp"
 
-// From what is typed to what the library is asked: numbers and structs. What goes with what is the library's to say.
 namespace rollfix::app {
+
+// What was measured, as typed and from files. `unit`: the part's, empty where it is not known. All throw InputError.
+
+/// Whether a wheel without skin is among the fingers.
+bool has_wheel(const RollArguments& arguments);
+
+/// Readings, one roll, several rolls of a part at rest, logs of several fingers, touches, whichever are given.
+Measurements read_measurements(const std::vector<std::string>& touches, const RollArguments& arguments,
+                               const Part& part, std::vector<std::string>& notes);
+
+/// --reading, or the roll of --log that --roll chooses.
+Measurements read_one_roll(const RollArguments& arguments, const Part& part, std::vector<std::string>& notes);
+
+// From what is typed to what the library is asked: numbers and structs. What goes with what is the library's to say.
 
 /// What is asked of PART by touches, rolls, and logs of several fingers and of wheels, every argument read once. What
 /// the user should know of how it was taken is added to the notes. `others`, where asked for: see load_part. Throws

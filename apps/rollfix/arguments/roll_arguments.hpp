@@ -1,14 +1,27 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/pose_arguments.hpp"
+#include "rollfix/belief.hpp"
 #include "rollfix/solve.hpp"
 
 namespace rollfix::app {
+
+/// What is known of how the part lies, as typed: at most one of both.
+struct PoseArguments {
+  std::string heading;
+  std::string pose;
+};
+
+/// Adds --heading and --pose.
+void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
+
+/// --heading or --pose as typed. Throws InputError.
+std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit);
 
 /// How a log is to be read, as typed; empty: not given.
 struct LogArguments {

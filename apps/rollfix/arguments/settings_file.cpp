@@ -13,7 +13,7 @@
 
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/help/option_groups.hpp"
+#include "rollfix/help/help_page.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "documents/json_output.hpp"
 #include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"

@@ -10,7 +10,6 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
-#include "rollfix/help/option_groups.hpp"
 
 namespace rollfix::app {
 namespace {

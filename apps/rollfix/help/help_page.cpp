@@ -1,16 +1,166 @@
 #include "rollfix/help/help_page.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 
+#include <unistd.h>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "rollfix/help/option_groups.hpp"
-#include "rollfix/help/wrapped.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
+
+struct Group {
+  std::string_view name;
+  std::vector<std::string_view> options;
+};
+
+/// Of all commands; what is in none is a test's failure.
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all = {
+      {"Part",
+       {"--catalog", "--loop", "--layer", "--gap", "--outer", "--open", "--corner-angle", "--smooth", "--unit",
+        "--allow-crossing", "--mirror", "--bridge", "--lean"}},
+      {"Log",
+       {"--reading", "--touch", "--clear", "--approach", "--log", "--roll", "--at", "--columns", "--wrapped",
+        "--skip-bad", "--direction", "--batch", "--once", "--again", "--idle-timeout", "--baud", "--samples",
+        "--seconds"}},
+      {"Files", {"--decimal"}},
+      {"Finger", {"--finger", "--odometer", "--may-overlap"}},
+      {"Noise", {"--noise", "--prior", "--robust", "--heading", "--pose", "--squeezed", "--seed"}},
+      {"Roll",
+       {"--start", "--length", "--rotation", "--part-rotation", "--stays", "--contact-angle", "--contact", "--pin",
+        "--jaw-rotation", "--squeeze", "--wheel", "--friction", "--margin", "--clearance", "--limit", "--duration",
+        "--travel"}},
+      {"Search", {"--tolerance", "--facing", "--budget", "--march", "--step", "--jobs", "--without-index"}},
+      {"Output",
+       {"-o", "--force", "--json", "--jsonl", "--verbose", "--explain", "--map", "--certify", "--every", "--on-change",
+        "--quiet"}},
+      {"General", {"--config", "--no-config", "--help", "--version"}}};
+  return all;
+}
+
+}  // namespace
+
+std::string name_of(const CLI::Option& option) {
+  const std::vector<std::string>& names = option.get_lnames();
+  if (!names.empty()) return "--" + names.front();
+  return option.get_snames().empty() ? option.get_name(true) : "-" + option.get_snames().front();
+}
+
+void group_options(CLI::App& command) {
+  for (CLI::Option* option : command.get_options([](const CLI::Option* one) { return one->nonpositional(); })) {
+    for (const Group& group : groups()) {
+      const bool holds_it =
+          std::find(group.options.begin(), group.options.end(), name_of(*option)) != group.options.end();
+      if (holds_it) option->group(std::string(group.name));
+    }
+  }
+}
+
+namespace {
+
+// Narrower no table of options can be read, wider no paragraph.
+constexpr std::size_t kLeastWidth = 40;
+constexpr std::size_t kMostWidth = 120;
+constexpr std::size_t kUsualWidth = 80;
+
+/// Pieces joined by blanks, and by `turn` where the line is full, which leaves room for its first line.
+std::string joined(const std::vector<std::string>& pieces, std::size_t width, std::size_t used,
+                   const std::string& turn) {
+  const std::size_t room = turn.find('\n');
+  const std::size_t indent = turn.size() - room - 1;
+  std::string result;
+  for (const std::string& piece : pieces) {
+    const bool is_first = result.empty();
+    if (!is_first && used + 1 + piece.size() + room > width) {
+      result += turn;
+      used = indent;
+    } else if (!is_first) {
+      result += ' ';
+      ++used;
+    }
+    result += piece;
+    used += piece.size();
+  }
+  return result;
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (const std::string_view word : split(text, ' ')) {
+    if (!word.empty()) words.emplace_back(word);
+  }
+  return words;
+}
+
+/// A command's words, an option with its value one piece, and what a shell does next another.
+std::vector<std::string> pieces_of_command(std::string_view line) {
+  std::vector<std::string> pieces;
+  for (const std::string& word : words_of(line)) {
+    const bool is_option = word.size() > 1 && word.front() == '-' &&
+                           std::isalpha(static_cast<unsigned char>(word[word.size() > 2 ? 2 : 1])) != 0;
+    const bool is_next = word == "&&" || word == "|" || word == ">";
+    if (pieces.empty() || is_option || is_next) {
+      pieces.push_back(word);
+    } else {
+      pieces.back() += ' ' + word;
+    }
+  }
+  return pieces;
+}
+
+std::string wrapped_command(std::string_view line, std::size_t width) {
+  constexpr std::string_view kRemark = "  # ";
+  const std::size_t remark = line.find(kRemark, 2);
+  if (line.size() <= width) return std::string(line);
+  if (remark != std::string_view::npos) {
+    return "  # " + wrapped(line.substr(remark + kRemark.size()), width, 4) + "\n" +
+           wrapped_command("  " + std::string(trimmed(line.substr(0, remark))), width);
+  }
+  return "  " + joined(pieces_of_command(line), width, 2, " \\\n      ");
+}
+
+/// How many characters a line of the terminal has, as COLUMNS or the terminal itself says; 80 where neither does.
+std::size_t terminal_width() {
+  std::size_t width = 0;
+  if (const char* const columns = std::getenv("COLUMNS")) {
+    const std::string_view digits = columns;
+    std::from_chars(digits.data(), digits.data() + digits.size(), width);
+  }
+  winsize size = {};
+  if (width == 0 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) width = size.ws_col;
+  return width == 0 ? kUsualWidth : std::clamp(width, kLeastWidth, kMostWidth);
+}
+
+/// A paragraph in lines of at most so many characters, all but the first after as many blanks; a longer word has a line
+/// of its own.
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  return joined(words_of(text), width, indent, "\n" + std::string(indent, ' '));
+}
+
+/// A page's examples, in which what a shell reads begins with two blanks: such a line goes on after a backslash, and
+/// what is said of it stands above it; all others are paragraphs.
+std::string wrapped_examples(std::string_view text, std::size_t width) {
+  std::string result;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    result += line.substr(0, 2) == "  " ? wrapped_command(line, width) : wrapped(line, width, 0);
+    result += '\n';
+  }
+  return result;
+}
 
 class HelpPage : public CLI::Formatter {
  public:

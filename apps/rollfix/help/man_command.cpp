@@ -7,7 +7,6 @@
 
 #include "rollfix/commands.hpp"
 #include "rollfix/help/help_page.hpp"
-#include "rollfix/help/option_groups.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
 

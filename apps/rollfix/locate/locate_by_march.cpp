@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/march.hpp"
 #include "rollfix/output/answer_output.hpp"

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/touch.hpp"
 #include "text/text.hpp"

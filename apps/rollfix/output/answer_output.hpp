@@ -3,9 +3,12 @@
 #include <string>
 
 #include "documents/documents.hpp"
+#include "rollfix/belief.hpp"
+#include "rollfix/hold.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/question.hpp"
 #include "rollfix/solve.hpp"
+#include "rollfix/touch.hpp"
 
 namespace rollfix::app {
 
@@ -34,5 +37,20 @@ std::string about(const Obstruction& obstruction, const Part& part);
 
 /// How far a part that was measured may be off.
 std::string accuracy_text(const Accuracy& accuracy);
+
+/// For people: the verdict, a table of the first contacts, poses, each finger, and what was asked.
+std::string hold_text(const HoldAnswer& answer);
+
+/// For people: the verdict, a table of the poses, what they leave open, and what was asked. `verbose`: with each
+/// touch's place on the part.
+std::string touches_text(const TouchAnswer& answer, bool verbose);
+
+/// "1.0020 +- 0.0004 times what was measured: they are 0.2 % longer": a scale that the rows tell. `more`, `less`: what
+/// they are where it is above 1, and below.
+std::string scale_text(double scale, double sd, const char* more, const char* less);
+
+/// Lines "lengths ...", "turns ...", "bias ...": what the rows tell of the scales of lengths and turns and of a
+/// gyroscope's bias, as far as the noise leaves them open.
+std::string scale_lines(const Fit& fit, std::size_t fingers);
 
 }  // namespace rollfix::app

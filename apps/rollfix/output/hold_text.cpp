@@ -1,4 +1,4 @@
-#include "rollfix/output/hold_text.hpp"
+#include "rollfix/output/answer_output.hpp"
 
 #include <fmt/format.h>
 

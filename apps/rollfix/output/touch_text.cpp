@@ -1,4 +1,4 @@
-#include "rollfix/output/touch_text.hpp"
+#include "rollfix/output/answer_output.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/inspect.hpp"
-#include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/touch.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"

@@ -6,7 +6,7 @@
 
 #include "log/mirrored.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/rolling.hpp"

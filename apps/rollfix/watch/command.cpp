@@ -9,17 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/arguments/typed.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/output/touch_text.hpp"
+#include "rollfix/output/answer_output.hpp"
 #include "rollfix/touch.hpp"
 #include "rollfix/usage.hpp"
-#include "rollfix/watch/hearing.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/watching.hpp"
 #include "rollfix/watch/writer.hpp"

@@ -11,11 +11,8 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/hold_text.hpp"
 #include "rollfix/output/option_names.hpp"
-#include "rollfix/output/scale_text.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/output/touch_text.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 

@@ -2,18 +2,116 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <limits>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "log/log_table.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
-#include "rollfix/watch/beginning.hpp"
-#include "rollfix/watch/two_logs.hpp"
+#include "rollfix/log.hpp"
+#include "text/text.hpp"
 #include "watch/meaning.hpp"
 
 namespace rollfix::app {
 namespace {
+
+/// What a line is that may be heard from its middle on, or before a device has found its rate.
+struct FirstLine {
+  enum class Kind { empty, garbage, numbers, words };  // words: a header
+  Kind kind = Kind::empty;
+  std::size_t cells = 0;  // of numbers
+};
+
+/// How many bytes of text the line, not empty, begins with: a character, or a blank; 0: something else.
+std::size_t text_length(std::string_view line) {
+  const auto first = static_cast<unsigned char>(line.front());
+  if (first == '\t' || first == '\r') return 1;
+  return first < 0x20 || first == 0x7F ? 0 : utf8_length(line);
+}
+
+bool is_text(std::string_view line) {
+  while (!line.empty()) {
+    const std::size_t length = text_length(line);
+    if (length == 0) return false;
+    line.remove_prefix(length);
+  }
+  return true;
+}
+
+/// Without the bytes in front of it that are no text.
+std::string_view from_its_text(std::string_view line) {
+  while (!line.empty() && text_length(line) == 0) line.remove_prefix(1);
+  return line;
+}
+
+FirstLine first_line(std::string_view line) {
+  if (!is_text(line)) return {FirstLine::Kind::garbage};
+  TableCutter cutter(false);
+  TableRow row;
+  if (!cutter.cut(line, 1, row)) return {FirstLine::Kind::empty};
+  if (is_data(row)) return {FirstLine::Kind::numbers, row.cells.size()};
+  return {FirstLine::Kind::words};
+}
+
+/// The lines of two logs that grow, one of each finger, as the rows of one log of two fingers.
+class TwoLogs {
+ public:
+  /// REQUIRES options.name_b. Throws InputError: fingers that are not valid.
+  TwoLogs(const Part& part, const WatchOptions& options);
+
+  /// A line of log 0 or 1, with what came of it. Throws InputError as PairedStream does.
+  std::vector<LogLine> push(std::size_t which, std::string_view line);
+  void resume(std::size_t which) { stream_.resume(which); }
+  std::vector<LogLine> restart(std::size_t which);
+  std::vector<LogLine> finish() { return stream_.finish(); }
+
+  bool is_ahead(std::size_t which) const { return stream_.is_ahead(which); }
+  bool has_waiting(std::size_t which) const { return stream_.has_waiting(which); }
+  LogKind kind() const { return stream_.kind(); }
+  std::size_t fingers() const { return stream_.fingers(); }  // 0: not known yet
+
+ private:
+  LogLine skipped(std::size_t which, const char* why);
+
+  PairedStream stream_;
+  bool midway_;
+  std::array<bool, 2> has_header_{};
+};
+
+TwoLogs::TwoLogs(const Part& part, const WatchOptions& options)
+    : stream_({options.name, *options.name_b}, part, options.fingers, options.noise, options.log, options.robust,
+              options.wheel.has_value()),
+      midway_(options.midway) {}
+
+std::vector<LogLine> TwoLogs::push(std::size_t which, std::string_view line) {
+  if (line.size() > kLongestLine) return {skipped(which, "a line that is too long to be a row of numbers")};
+  if (!midway_ || has_header_[which]) return stream_.push(which, line);
+  // Of a log that was joined in the middle nothing is guessed: rows belong together by their times, which a header
+  // names.
+  const std::string_view text = from_its_text(line);
+  const FirstLine first = first_line(text);
+  has_header_[which] = first.kind == FirstLine::Kind::words;
+  if (has_header_[which]) return stream_.push(which, text);
+  return {skipped(which, "a row before the header, which says what its numbers are")};
+}
+
+LogLine TwoLogs::skipped(std::size_t which, const char* why) {
+  stream_.push(which, "#");  // it counts as a line all the same
+  LogLine line;
+  line.kind = LineKind::malformed;
+  line.message = fmt::format("{}:{}: skipped: {}", stream_.name(which), stream_.lines(which), why);
+  return line;
+}
+
+std::vector<LogLine> TwoLogs::restart(std::size_t which) {
+  has_header_[which] = false;
+  return stream_.restart(which);
+}
 
 using WorkClock = std::chrono::steady_clock;
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "rollfix/watch/touch_watcher.hpp"
 #include "rollfix/watch/watcher.hpp"
 
 namespace rollfix::app {

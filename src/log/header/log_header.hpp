@@ -8,8 +8,9 @@
 #include "log/log_table.hpp"
 #include "rollfix/log.hpp"
 
-// What columns are called, and what may be said of one: "u_a", "psi=yaw:deg:unwrapped".
 namespace rollfix {
+
+// What columns are called, and what may be said of one: "u_a", "psi=yaw:deg:unwrapped".
 
 bool is_known(std::string_view name);
 
@@ -27,6 +28,8 @@ std::optional<bool> take_wrapping(std::string_view& unit);
 bool takes(Column column, Dimension dimension);
 /// "an angle: rad, deg", "an angle or a length: ...".
 std::string what_it_takes(Column column);
+
+// What stands over the columns of a log, and how it is taken.
 
 /// What stands in a header over one column.
 struct HeaderName {

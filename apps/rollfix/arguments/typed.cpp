@@ -1,0 +1,215 @@
+#include "rollfix/arguments/typed.hpp"
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "outline/turn.hpp"
+#include "rollfix/error.hpp"
+#include "text/number.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+
+double read_number(std::string_view text, const std::string& what) {
+  const std::string_view shown = trimmed(text);
+  std::string_view digits = shown;
+  if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = fast_float::from_chars(digits.data(), end, value);
+  if (error != std::errc() || stop != end) {
+    throw InputError(fmt::format("{}: '{}' is not a number{}", what, shown, decimal_comma_hint(shown)));
+  }
+  if (!std::isfinite(value)) throw InputError(fmt::format("{}: '{}' is not a finite number", what, shown));
+  return value;
+}
+
+Length read_given_length(std::string_view text, const std::string& what) {
+  const std::string_view shown = trimmed(text);
+  const std::optional<Length> length = parse_length(shown);
+  if (!length) {
+    throw InputError(fmt::format("{}: '{}' is not a number, nor one with a unit of length as in 8mm ({}){}", what,
+                                 shown, unit_names(Dimension::length), decimal_comma_hint(shown)));
+  }
+  if (!std::isfinite(length->value)) throw InputError(fmt::format("{}: '{}' is not a finite number", what, shown));
+  return *length;
+}
+
+double read_length(std::string_view text, const std::string& what, const std::string& part_unit) {
+  return in_unit(read_given_length(text, what), part_unit, what);
+}
+
+double read_angle(std::string_view text, const std::string& what) {
+  const std::string_view shown = trimmed(text);
+  const std::optional<double> angle = parse_angle(shown);
+  if (!angle || !std::isfinite(*angle)) {
+    throw InputError(fmt::format("{}: '{}' is not an angle, expected finite radians, or degrees as in 73deg{}", what,
+                                 shown, decimal_comma_hint(shown)));
+  }
+  return *angle;
+}
+
+std::size_t read_count(std::string_view text, const std::string& what, std::size_t least) {
+  const std::string_view digits = trimmed(text);
+  std::size_t count = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+  if (error != std::errc() || stop != digits.data() + digits.size() || count < least) {
+    throw InputError(fmt::format("{}: '{}' is not a whole number of at least {}", what, digits, least));
+  }
+  return count;
+}
+
+namespace {
+
+/// What an angle is divided by: as it is written, and how many seconds, or square roots of seconds, that is.
+struct Per {
+  std::string_view written;
+  double seconds;
+};
+constexpr std::array<Per, 3> kRates = {{{"s", 1}, {"min", 60}, {"h", 3600}}};
+const std::array<Per, 6> kWalks = {{{"sqrt(s)", 1},
+                                    {"sqrt(min)", std::sqrt(60.0)},
+                                    {"sqrt(h)", 60},
+                                    {"s/sqrt(hz)", 1},
+                                    {"min/sqrt(hz)", 60},
+                                    {"h/sqrt(hz)", 3600}}};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return result;
+}
+
+template <class Table>
+double read_per(std::string_view text, const std::string& what, const Table& table, const char* examples) {
+  const std::string_view shown = trimmed(text);
+  const std::size_t slash = shown.find('/');
+  if (slash == std::string_view::npos && shown.find("deg") == std::string_view::npos) return read_number(shown, what);
+  const std::string per = slash == std::string_view::npos ? "" : lower(trimmed(shown.substr(slash + 1)));
+  const auto unit = std::find_if(table.begin(), table.end(), [&](const Per& one) { return one.written == per; });
+  if (unit == table.end()) throw InputError(fmt::format("{}: '{}' is none of {}", what, shown, examples));
+  std::string_view angle = trimmed(shown.substr(0, slash));
+  if (angle.size() > 3 && angle.substr(angle.size() - 3) == "rad") angle.remove_suffix(3);
+  return read_angle(angle, what) / unit->seconds;
+}
+
+}  // namespace
+
+double read_rate(std::string_view text, const std::string& what) {
+  return read_per(text, what, kRates, "10deg/h, 5deg/min, 0.01deg/s, or radians per second");
+}
+
+double read_walk(std::string_view text, const std::string& what) {
+  return read_per(text, what, kWalks,
+                  "0.3deg/sqrt(h), 0.005deg/sqrt(s), 0.005deg/s/sqrt(Hz), or radians per square root of a second");
+}
+
+Interval read_travel(const std::string& text, const std::string& unit) {
+  const std::vector<std::string_view> fields = split(text, ',');
+  const std::string what = "--travel " + text;
+  if (fields.size() == 1) {
+    const double most = read_length(fields[0], what, unit);
+    if (!(most > 0)) throw InputError(what + ": expected a length above 0, or BACK,FORWARD as in -0.5,1.2");
+    return {-most, most};
+  }
+  if (fields.size() != 2) {
+    throw InputError(what + ": expected one length, or BACK,FORWARD as in -0.5,1.2; are there decimal commas in it?");
+  }
+  const Interval travel{read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
+  if (!(travel.lo <= 0 && travel.hi >= 0 && travel.width() > 0)) {
+    throw InputError(what + ": expected a length of at most 0, backwards, and one of at least 0, forwards, not both 0");
+  }
+  return travel;
+}
+
+namespace {
+
+bool in_degrees(std::string_view angle) { return take_degrees(angle); }
+
+/// Half a unit of the last decimal, whatever the unit is.
+double half_unit(std::string_view number) {
+  take_degrees(number);
+  return rounding_of(number);
+}
+
+/// Trailing zeros are often left off, so all numbers are taken to be rounded alike: to the decimals of the one that
+/// shows most of them, each in its own unit. `lengths`: as typed.
+Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
+                         const std::string& unit) {
+  double finest = 0;
+  for (const std::string_view field : fields) {
+    const double one = half_unit(field);
+    if (one > 0 && (finest == 0 || one < finest)) finest = one;
+  }
+  double length = 0;
+  for (const Length& one : lengths) length += in_unit({finest, one.unit}, unit, "");
+  return {length, finest * (in_degrees(fields.back()) ? kDegree : 1)};
+}
+
+std::string found_instead(std::size_t count) {
+  if (count == 1) return "1 number";
+  return fmt::format("{} numbers; are there decimal commas among them?", count);
+}
+
+/// LENGTH,TURN of one finger, or LENGTH_A,LENGTH_B,TURN of two.
+void read_reading(const std::string& text, bool of_two, const std::string& unit, Measurements& measured) {
+  const std::string what = fmt::format("--reading {}", text);
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (of_two && fields.size() != 3) {
+    throw InputError(fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, found {}", what,
+                                 found_instead(fields.size())));
+  }
+  if (!of_two && fields.size() != 2) {
+    throw InputError(
+        fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
+                    what, found_instead(fields.size())));
+  }
+  std::vector<Length> lengths;
+  for (std::size_t k = 0; k + 1 < fields.size(); ++k) lengths.push_back(read_given_length(fields[k], what));
+  const auto length = [&](std::size_t k) { return in_unit(lengths[k], unit, what); };
+  const double turn = read_angle(fields.back(), what);
+  measured.readings.push_back(of_two ? Reading(length(0), length(1), turn) : Reading(length(0), turn));
+  measured.roundings.push_back(common_rounding(fields, lengths, unit));
+}
+
+// A turn of more than this, and of as much again for each lap that was rolled, radians, was hardly meant as radians.
+constexpr double kHardlyRadians = 4 * std::numbers::pi;
+
+/// Where a turn that was typed without a unit was likely meant in degrees; else empty.
+std::string degrees_hint(const std::string& typed, const Reading& reading, const Part& part) {
+  const std::string_view turn = trimmed(split(typed, ',').back());
+  double laps = 0;
+  for (const double length : reading.length) laps += std::abs(length) / part.perimeter();
+  if (in_degrees(turn) || std::abs(reading.turn) <= kHardlyRadians * (1 + laps)) return "";
+  return fmt::format("--reading {}: a turn of {} rad is {:.3g} turns; did you mean {}deg?", typed, turn,
+                     std::abs(reading.turn) / (2 * std::numbers::pi), turn);
+}
+
+}  // namespace
+
+double half_unit_of_angle(const std::string& angle) { return half_unit(angle) * (in_degrees(angle) ? kDegree : 1); }
+
+Measurements read_readings(const std::vector<std::string>& readings, const Part& part,
+                           std::vector<std::string>& notes) {
+  Measurements measured;
+  const bool of_two = std::any_of(readings.begin(), readings.end(),
+                                  [](const std::string& text) { return split(text, ',').size() == 3; });
+  for (const std::string& text : readings) {
+    read_reading(text, of_two, part.unit(), measured);
+    const std::string hint = degrees_hint(text, measured.readings.back(), part);
+    if (!hint.empty()) notes.push_back(hint);
+  }
+  return measured;
+}
+
+}  // namespace rollfix::app
