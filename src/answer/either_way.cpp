@@ -11,6 +11,12 @@
 #include "log/mirrored.hpp"
 #include "rollfix/error.hpp"
 
+// A problem the other way round: as a mirror shows it, and with lengths that count clockwise.
+// Notation:
+//   (L, theta)      a reading; in a mirror (-L, -theta), clockwise (-L, theta)
+//   (u, psi)        a contact; in a mirror (-u, pi - psi), of a jaw (-u, -psi); a centre (x, y) becomes (-x, y)
+//   way             0: counter-clockwise, 1: clockwise; with noise each has its evidence, and half the prior
+// Follows docs/rolling.md, "Signs" and "Against the outline's direction".
 namespace rollfix {
 namespace {
 

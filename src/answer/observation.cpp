@@ -11,9 +11,14 @@
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 
+// Readings of whatever was given, and how exact they are.
 // Notation:
 //   L_0 = 0, L_1, L_2, ...   one finger's lengths: at its first contact and at each reading
-//   L_k - L_j                what it has rolled in between: a way from corner to corner, but for digits
+//   L_k - L_j       what it has rolled in between: a way from corner to corner, but for digits
+//   h               how far rounding may have moved a length: half a unit of its last digit
+//   kappa           the largest curvature that lasts for h: what turns in less is a corner; h kappa of turn is the
+//                   tolerance
+// Follows docs/cli.md, "Tolerance".
 // Idea: where two contacts of one finger are at corners, digits must not say that one of them has left its own.
 namespace rollfix {
 namespace {

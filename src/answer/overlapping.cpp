@@ -13,6 +13,7 @@
 //   p, Theta     a contact on the part, and the tangent there
 //   N, c(u)      the finger's own normal and its rim where it touches, in its frame
 //   beta         how its frame is turned: Theta + pi / 2 - N; its origin is p - R(beta) c(u)
+// Follows docs/rolling.md, "Fingers of any convex shape".
 // Idea: two bodies any of whose points is off by no more than `moved` are in one another by no less than what their
 // middle poses are, less both. So a box of first contacts goes only where no pair in it keeps the fingers apart.
 namespace rollfix {

@@ -11,6 +11,15 @@
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 
+// Notation:
+//   D^6 u           sixth differences of a column: of a smooth course next to nothing, of noise their variance is
+//                   (12 choose 6) sd^2, and neighbours are correlated by -6/7
+//   jitter          sd of what is not smooth, by the median of |D^6 u|, `kMedianSize` of their standard deviation
+//   rounding        half a unit of a column's last decimal
+//   off             by how much a row misses a placement, against what digits leave open: `kOverTolerance` times
+// Follows docs/belief.md, "Logs without noise".
+// Idea: without noise a few rows are searched with, and all of them are held against what was found. Where none fits,
+// the rows are weighed with a noise so fine that the least mistake shows, then with that of usual sensors.
 namespace rollfix {
 namespace {
 

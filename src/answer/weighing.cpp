@@ -11,6 +11,13 @@
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   mode            a place of the posterior, with its probability; `rest`: what all modes leave out
+//   trust           1 / (1 + e^odds): how far the rows are believed where something else explains them as well
+//   evidence        log of the integral of the likelihood over all places, peak and volume: `Evidence`
+// Follows docs/belief.md, "What the verdict says", "What may be wrong", and of centres "Centres as evidence".
+// Idea: what the samples leave takes the place of what the search found. Centres that nobody called evidence still must
+// not contradict the answer: they are weighed as if they were known badly.
 namespace rollfix {
 namespace {
 

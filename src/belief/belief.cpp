@@ -11,6 +11,14 @@
 #include "part/part_data.hpp"
 #include "rollfix/error.hpp"
 
+// The facade: which posterior, and the verdict on what it settles at.
+// Notation:
+//   peak            log L at the likeliest place, with the prior or by the rows alone: `evidence.peak`
+//   cost            2 (peak by the rows alone - peak with the prior), a chi-square of as many degrees as the prior has
+//   widened         by how much the rows are noisier than said; it divides costs as its square
+//   most, that_count   the probability of the likeliest place, and how many places count: Remaining
+//   credible_length    the boundary that 95 % need
+// Follows docs/belief.md, "What the verdict says" and "When the rows fit badly".
 namespace rollfix {
 
 namespace {

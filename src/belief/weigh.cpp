@@ -8,6 +8,14 @@
 #include "outline/turn.hpp"
 #include "rollfix/belief.hpp"
 
+// Notation:
+//   s, t            first contacts of finger a and of finger b: `Mode::start`, `Placement::start`
+//   extent          what of the boundary a placement reaches over; region, interval: a mode's whole, and its 95 %
+//   off             how far a mode's start is outside an extent, in its own standard deviations: `off_placement`
+//   ds/dtheta, ds/dL   1 / (kappa(s + L) - kappa(s)) and -kappa(s + L) times that: Sensitivity, of one finger
+// Follows docs/search.md, "ACCURACY", and docs/belief.md, "What the verdict says".
+// Idea: a mode is one placement, the nearest that it is within `kNear` of, or one by itself. What no mode is at is
+// improbable; a mode that holds several placements makes none of them so.
 namespace rollfix {
 
 namespace {

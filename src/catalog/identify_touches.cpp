@@ -19,6 +19,12 @@
 #include "touch/roll_contacts.hpp"
 #include "weights.hpp"
 
+// Notation, as in docs/identify.md, "Touches":
+//   left            parts that no touch and no roll by itself rules out: `bounds/`
+//   weight          peak and volume of a part's evidence, the latter less the log of where poses can be: PartWeight
+//   likeness        how far places and tangents of two parts may be apart that no touch tells from each other: Likeness
+//   excess          so many times the noise of rolls is let pass, in turn
+// Follows docs/identify.md, "Touches" and "How touches rule out a part".
 namespace rollfix {
 namespace {
 

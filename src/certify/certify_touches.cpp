@@ -11,6 +11,10 @@
 #include "rollfix/error.hpp"
 #include "touch/poses_beyond.hpp"
 
+// Notation:
+//   pose            x, y and heading of the part; a set of them is an extent: CertifiedPose
+//   told            what tells a pose: where a centre was, and whether a normal: Told
+//   margin          by how much a pose may move and turn while shares of the tolerances, `kWider`, make up for it
 // Follows docs/certificates.md, "Touches".
 // Idea: the certificate is the question, and boxes that hold all sets of poses; the verifier searches by itself. What
 // an answer leaves out is within the tolerances as well, so that it has to be among the boxes.

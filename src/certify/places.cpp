@@ -16,6 +16,11 @@
 #include "rollfix/outline.hpp"
 #include "text/text.hpp"
 
+// Notation:
+//   s, u            arc length, and the parameter of the outline's curve there, by its formula: CurvePlace
+//   joint           where two curves meet: rows keep `kClear` P away from it, `least_step`
+//   rest            an end of a curve at which its velocity is 0
+// Follows docs/certificates.md, "What is in it".
 namespace rollfix {
 namespace {
 

@@ -14,6 +14,7 @@
 //   w               the tangent at the start, of two fingers a's less b's
 //   f_k             Theta(s + L_k) - theta_k - w, eqs. (4), (5), (8), (9); theta_k may be off by `Reading::pivot`
 //   C               facing: w = C but for whole turns
+// Follows eqs. (4), (5), (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "MULTIPLE SOLUTIONS".
 // Idea: all readings share w, and each leaves an interval of it. On a line intervals have a point in common when each
 // two of them do: the least slack with which they do is the residual (`fit`).
 namespace rollfix {

@@ -10,6 +10,13 @@
 #include "rollfix/error.hpp"
 #include "searches.hpp"
 
+// The facade: what is asked is judged, searched, and what was found is counted.
+// Notation:
+//   f, f_k          as in search_one.cpp and corner_sets.cpp: eqs. (4), (5), (8) and (9) of the paper (Jia, IROS 2001)
+//   P, L            perimeter, and a reading's length; first contacts of an open outline: [max -L, P - max L]
+//   parity          on a smooth closed part f is continuous and periodic, so that it crosses 0 evenly often; likewise
+//                   two closed plane curves meet evenly often: an odd number of crossings is a search gone wrong
+// Follows docs/search.md, "Once per reading" and "Two fingers".
 namespace rollfix {
 namespace {
 

@@ -16,6 +16,14 @@
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
 
+// From the rows of a log to readings.
+// Notation:
+//   u, psi          of a row of contacts, unwrapped; row 0 is the first contact
+//   (L, theta)      a reading from the first contact on, by a finger's shape: `reading_between`; of two (La, Lb, theta)
+//   instant         a time that is asked for; its row is the nearest one, no further than half the way to its
+//                   neighbours
+//   rounding        half a unit of the last digits of place and angle: Rounding
+// Follows docs/rolling.md, "The roll itself" and "Logs", and eqs. (1) and (2) of the paper (Jia, IROS 2001).
 namespace rollfix {
 
 namespace {

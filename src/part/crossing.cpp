@@ -12,6 +12,7 @@
 //   turn            how far the tangent turns on it in all; of a node the corners between its arcs included
 //   bulge           how far an arc can be from its chord: by the isosceles triangle with the same turn
 //   box             around the chord, wider by the bulge
+// Follows the idea of D. H. Ballard, "Strip trees: a hierarchical representation for curves" (1981).
 // Idea: a stretch whose tangent turns by less than half a turn in all can't meet itself (`kSimpleTurn`), nor can two
 // that join and together turn by less. So only pairs of nodes whose boxes meet, and which turn by more, are looked at
 // in a binary tree of boxes, down to two arcs that are apart or meet.
