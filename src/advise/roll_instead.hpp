@@ -5,7 +5,7 @@
 
 #include "rollfix/advise.hpp"
 #include "touch/likely_poses.hpp"
-#include "touch/part_distance.hpp"
+#include "touch/nearest.hpp"
 
 namespace rollfix::touch {
 

@@ -9,7 +9,7 @@
 #include "hold_facts.hpp"
 #include "log_jumps.hpp"
 #include "outline/turn.hpp"
-#include "touch/mistaken_units.hpp"
+#include "touch/mistakes.hpp"
 
 namespace rollfix::hold {
 namespace {

@@ -7,7 +7,6 @@
 #include "rollfix/part.hpp"
 #include "touch/centre_path.hpp"
 #include "touch/nearest.hpp"
-#include "touch/path_tree.hpp"
 
 namespace rollfix::hold {
 

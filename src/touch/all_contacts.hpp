@@ -5,10 +5,11 @@
 
 #include "centre_path.hpp"
 #include "measured.hpp"
-#include "path_tree.hpp"
 #include "roll_contacts.hpp"
 #include "rollfix/touch.hpp"
 
+// A problem as the search takes it: all contacts alike, and of a part that lies face down what is seen in the mirror
+// x = -x, where it does not.
 namespace rollfix::touch {
 
 /// All contacts of a problem as the search takes them, rolls first, with what they point to.
@@ -28,5 +29,12 @@ struct AllContacts {
   /// One of them can be nowhere on the part, whatever the others say.
   bool one_fits_nowhere() const;
 };
+
+TouchProblem in_mirror(const TouchProblem& problem);
+/// Its first contact; readings are along the outline as it is.
+RollSearched in_mirror(RollSearched roll);
+
+/// Back into the world: poses, and what rolls say.
+void out_of_mirror(TouchAnswer& answer);
 
 }  // namespace rollfix::touch

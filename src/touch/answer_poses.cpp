@@ -8,10 +8,20 @@
 #include <numbers>
 #include <utility>
 
-#include "heading_sets.hpp"
 #include "outline/turn.hpp"
 #include "roll_belief.hpp"
+#include "roll_poses.hpp"
 
+// Notation:
+//   (X, phi)        a pose; a contact's residuals in it are the distance of its centre from the path's c(u), and what
+//                   its tangent is off by: TouchContact
+//   (a, h)          a cell: the first contact's stretch, a disc (c, rho), and headings phi +- h
+//   extent          X = q_1 - R(phi) c, off by rho + delta_1 + 2 |c| sin(h / 2) at most: `extent_of`
+//   I, lambda       information of a pose and its least eigenvalue, headings taken times half the part's diagonal: the
+//                   pose is a continuum where lambda <= 1 / (kContinuum delta)^2
+//   w_k, m_k, C_k   weight, mean and covariance of a node of the posterior; of a mode the moments are those of the
+//                   mixture, C = sum w_k (C_k + m_k m_k^T) / sum w_k - m m^T: `add_posterior`
+// Follows docs/touch.md, "What the answer promises" and "How it works".
 namespace rollfix::touch {
 namespace {
 

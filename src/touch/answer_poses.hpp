@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cell_search.hpp"
-#include "cell_sets.hpp"
 #include "pose_fit.hpp"
 #include "posterior.hpp"
 #include "rollfix/touch.hpp"

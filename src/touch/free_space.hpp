@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cell_search.hpp"
-#include "part_distance.hpp"
-#include "path_tree.hpp"
+#include "centre_path.hpp"
+#include "nearest.hpp"
 #include "posterior.hpp"
 #include "rollfix/touch.hpp"
 

@@ -6,12 +6,11 @@
 #include <numbers>
 #include <optional>
 
+#include "all_contacts.hpp"
 #include "centre_path.hpp"
 #include "free_space.hpp"
 #include "measured.hpp"
-#include "mirror_poses.hpp"
 #include "outline/turn.hpp"
-#include "path_tree.hpp"
 #include "pose_fit.hpp"
 
 // Notation:

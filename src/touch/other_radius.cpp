@@ -1,4 +1,4 @@
-#include "other_radius.hpp"
+#include "mistakes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -7,12 +7,10 @@
 #include <cmath>
 #include <optional>
 
+#include "all_contacts.hpp"
 #include "cell_search.hpp"
 #include "centre_path.hpp"
-#include "mirror_poses.hpp"
-#include "mistakes.hpp"
 #include "outline/turn.hpp"
-#include "path_tree.hpp"
 #include "pose_fit.hpp"
 
 // Notation:

@@ -1,4 +1,4 @@
-#include "pose_mixture.hpp"
+#include "outlier_sets.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -14,6 +14,13 @@
 #include "posterior.hpp"
 #include "weighed_poses.hpp"
 
+// Notation:
+//   S, w(S)   a set of outliers and its weight, docs/touch.md, "Outliers": `outliers`, `log_weights_`
+//   p         a pose's probability among those of its set: `probability`, in the end times w(S) / sum of all w
+//   m, C      mean and covariance of a pose (x, y, heading): `spread`; d is what two means differ by: `apart`
+//   a, b      shares of two poses that are one; their moments are those of the mixture, a m_1 + b m_2 and
+//             a C_1 + b C_2 + a b d d^T: `absorb`
+// Poses by different sets are one where d^T (C_1 + C_2)^-1 d is small, continua where their intervals overlap.
 namespace rollfix::touch {
 namespace {
 

@@ -3,21 +3,68 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "all_contacts.hpp"
 #include "answer_poses.hpp"
-#include "cell_levels.hpp"
-#include "heading_sets.hpp"
-#include "mirror_poses.hpp"
 #include "outline/turn.hpp"
-#include "plain_rolls.hpp"
+#include "pose_sets.hpp"
 #include "requirements.hpp"
+#include "roll_contacts.hpp"
+#include "roll_poses.hpp"
+#include "rollfix/locate.hpp"
+#include "rollfix/touch.hpp"
 #include "witnessed_poses.hpp"
 
+// Notation:
+//   E_j             extents of the poses that an answer lists, intervals of x, y and the heading: `known`, PoseExtent
+//   (a, b)          a cell of the search: stretches of two contacts, and around its poses an extent: `extent_of`
+//   delta, eps      tolerances of contacts; of a roll those of its first contact, which its readings confine to arcs
+// Follows docs/certificates.md: what is within all tolerances and in no E_j is a claim that the answer lacks something.
+// Idea: the search of a problem without noise, less the cells whose extent is all in one E_j. What is left is witnessed
+// or refuted as ever; of what the budget leaves open the extents are told.
 namespace rollfix::touch {
 namespace {
+
+/// All that fits the readings.
+Answer placed(const Part& part, const RollSearched& roll) {
+  Answer alone{part, {}};
+  alone.readings.assign(roll.readings.begin(), roll.readings.end());
+  alone.tolerance.value = roll.tolerance;
+  LocateOptions options;
+  options.tolerance = roll.tolerance;
+  Search found = locate(part, roll.readings, options);
+  alone.status = found.status;
+  alone.verdict = found.verdict();
+  alone.placements = std::move(found.placements);
+  alone.unresolved = std::move(found.unresolved);
+  return alone;
+}
+
+/// Rolls as contacts by the readings that were searched with alone, without noise: also where other rows of the log
+/// contradict them, or where the finger could not have rolled. `tolerance`: of each, first those of rolls.
+/// Throws InputError as `locate` does.
+std::vector<RollContact> plain_rolls(const Part& part, double radius, const std::vector<RollSearched>& rolls,
+                                     const std::vector<TouchTolerance>& tolerance) {
+  std::vector<RollContact> contacts;
+  for (std::size_t k = 0; k < rolls.size(); ++k) {
+    RollContact contact{placed(part, rolls[k]), {}, {}, {}, {}, {}};
+    confine_by_readings(contact, part, radius);
+    Measured& measured = contact.measured;
+    measured.is_roll = true;
+    measured.tangent = rolls[k].normal + 0.5 * std::numbers::pi;
+    measured.angle_unit = measured.angle_most = tolerance[k].angle;
+    measured.has_place = rolls[k].at.has_value();
+    measured.at = rolls[k].at.value_or(Vec2::Zero());
+    measured.place_unit = measured.place_most = measured.has_place ? tolerance[k].length : part.perimeter();
+    measured.tree = contact.tree.get();
+    contacts.push_back(std::move(contact));
+  }
+  return contacts;
+}
 
 // Of the least difference of two poses: rounding.
 constexpr double kRounding = 1e-6;

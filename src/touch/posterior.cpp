@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include "hopeless_sets.hpp"
 #include "outline/turn.hpp"
 #include "roll_belief.hpp"
 #include "tilted_touch.hpp"
@@ -18,8 +17,7 @@
 //   r^2             least sum of squares given u_1: `FittedPose::square`, its normal matrix `information`
 //   L_i             likelihood of a further touch, summed over the boundary near its nearest place: TiltedTouch
 //   log w           `log_weight`: log of the integral of the product of all L_i over the pose, about its mode, and of
-//   the
-//                   length that the node stands for
+//                   the length that the node stands for
 // Follows docs/touch.md, "How it works".
 // Idea: quadrature over one unknown, and about each of its values Laplace's method for the rest, by Newton's steps from
 // the best pose to the mode of the product.

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cell_sets.hpp"
+#include "cell_search.hpp"
 #include "pose_fit.hpp"
 #include "rollfix/touch.hpp"
 
@@ -54,5 +54,12 @@ std::vector<PoseMode> modes_of(const std::vector<PosteriorNode>& nodes);
 
 /// The middle interval that holds this share of a mixture's weight.
 Interval middle_share(const std::vector<MixtureTerm>& terms, double share);
+
+/// Squares that exceed the least known by more are worth exp(-25) of it: what has them is not looked at closely.
+inline constexpr double kHopeless = 50;
+
+/// Of each group of cells whether its component fits so badly, next to the best, that it has no probability to speak
+/// of. Each is started from in its middle, and those that seem to from more and more cells.
+std::vector<bool> hopeless_groups(PoseFit& fit, const CellSets& sets, std::size_t first_touch);
 
 }  // namespace rollfix::touch

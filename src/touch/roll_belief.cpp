@@ -12,9 +12,9 @@
 
 // Notation:
 //   u_j, p_j       a node's place of the roll's first contact, and the probability of its stretch: `place`,
-//   `log_weight` c_j, t_j       where the finger's centre was then, and how the part's tangent pointed, both in the
-//   world, if the first
-//                  contact is at u_j: means of a normal distribution with information Q_j: `at`, `tangent`,
+//                  `log_weight`
+//   c_j, t_j       where the finger's centre was then, and how the part's tangent pointed, both in the world, if the
+//                  first contact is at u_j: means of a normal distribution with information Q_j: `at`, `tangent`,
 //                  `information`
 //   o(u), a(u)     the centre and the tangent's angle in the part's frame: `point`
 //   e_j            residual of a pose (X, phi): (c_j - X - R(phi) o(u_j), t_j - a(u_j) - phi)

@@ -16,6 +16,16 @@
 #include "rollfix/error.hpp"
 #include "rollfix/solve.hpp"
 
+// Notation, of one roll in a problem of several contacts:
+//   s              place of the roll's first contact on the boundary, and Theta(s) the tangent's angle there
+//   (l_j, t_j)     its readings, how far and by how much it has turned: |Theta(s + l_j) - Theta(s) - t_j| <= tolerance
+//   arcs           where s can be by the roll alone, `confined.arcs`; at a corner also which tangents: `pivots_alone`
+//   q, tau         the finger's centre (or its contact) in the first row, and the part's tangent there: `Measured::at`,
+//                  `tangent`, with the tolerances `place_most`, `angle_most`
+//   n_k            nodes of the roll's belief, each with a mean and an information of (q, tau): RollBelief
+// Follows docs/touch.md, "Several rolls", and the paper's condition for readings, docs/notation.md.
+// Idea: a roll is one more touch, at its first contact, that knows where on the part it is; with noise q and tau are in
+// the middle of what the nodes say, and the tolerance holds all of them.
 namespace rollfix::touch {
 namespace {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "centre_path.hpp"
 #include "measured.hpp"
-#include "path_tree.hpp"
 #include "roll_belief.hpp"
 #include "rollfix/solve.hpp"
 #include "rollfix/touch.hpp"

@@ -4,12 +4,207 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
 #include <utility>
 
+#include "cell_search.hpp"
 #include "outline/turn.hpp"
 
+// Notation:
+//   tau_k, eps_k   direction of the part's tangent in the world at contact k, and how far it may be off
+//   a(u)           the tangent's angle in the part's frame, monotone on each stretch of a contact's path
+//   phi            the part's heading: |tau_k - a(u_k) - phi| <= eps_k for each k
+//   tuple          a stretch for each contact, and the interval of phi that all of them leave
+// Where no contact tells a place the heading is all that there is: tuples are connected where a contact passes from one
+// stretch to the next, and what hangs together is one answer. docs/touch.md, "Several rolls".
 namespace rollfix::touch {
 namespace {
+
+// More sets of stretches than this are too many to compare one with another.
+constexpr std::size_t kMostTuples = 200000;
+constexpr int kHalvings = 60;
+
+/// A stretch for each contact, and the headings with which they all can be on theirs.
+struct Tuple {
+  std::vector<std::size_t> stretches;
+  HeadingArc headings;
+};
+
+class HeadingSearch {
+ public:
+  HeadingSearch(const std::vector<Measured>& contacts, std::size_t budget)
+      : contacts_(contacts), budget_(std::min(budget, kMostTuples)) {}
+
+  HeadingSets run() {
+    std::vector<std::size_t> chosen;
+    extend(chosen, {});
+    for (const std::vector<std::size_t>& set : connected()) result_.poses.push_back(described(set));
+    std::sort(result_.poses.begin(), result_.poses.end(),
+              [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
+    return std::move(result_);
+  }
+
+ private:
+  const CentrePath& path(std::size_t k) const { return contacts_[k].tree->path(); }
+
+  /// The headings with a contact whose tangent has one of these angles.
+  HeadingArc headings_of(std::size_t k, const Interval& angles) const {
+    return {nearest_angle(*contacts_[k].tangent - angles.middle()),
+            0.5 * angles.width() + contacts_[k].angle_most + kTurnAccuracy};
+  }
+
+  /// All tuples that begin so.
+  void extend(std::vector<std::size_t>& chosen, const HeadingArc& headings) {
+    const std::size_t k = chosen.size();
+    if (k == contacts_.size()) {
+      tuples_.push_back({chosen, headings});
+      return;
+    }
+    const std::vector<CentreStretch>& stretches = path(k).stretches();
+    for (std::size_t n = 0; n < stretches.size(); ++n) {
+      if (tuples_.size() >= budget_) result_.complete = false;
+      if (!result_.complete) return;
+      ++result_.comparisons;
+      const HeadingArc both = common(headings, headings_of(k, stretches[n].angle));
+      if (both.is_empty()) continue;
+      chosen.push_back(n);
+      extend(chosen, both);
+      chosen.pop_back();
+    }
+  }
+
+  /// Tuples that hang together: one contact is at the end of its stretch, where the next one begins.
+  std::vector<std::vector<std::size_t>> connected() const {
+    std::map<std::vector<std::size_t>, std::size_t> index;
+    for (std::size_t t = 0; t < tuples_.size(); ++t) index[tuples_[t].stretches] = t;
+    UnionFind joined(tuples_.size());
+    for (std::size_t t = 0; t < tuples_.size(); ++t) {
+      for (std::size_t k = 0; k < contacts_.size(); ++k) {
+        const std::optional<std::size_t> next = path(k).stretches()[tuples_[t].stretches[k]].after;
+        if (!next) continue;
+        std::vector<std::size_t> other = tuples_[t].stretches;
+        other[k] = *next;
+        const auto found = index.find(other);
+        if (found != index.end() && meet_at_end(tuples_[t], k)) joined.join(t, found->second);
+      }
+    }
+    return joined.sets();
+  }
+
+  bool meet_at_end(const Tuple& tuple, std::size_t k) const {
+    const CentreStretch& stretch = path(k).stretches()[tuple.stretches[k]];
+    const double angle = path(k).at({tuple.stretches[k], stretch.u.hi}).angle;
+    HeadingArc headings = headings_of(k, {angle, angle});
+    for (std::size_t other = 0; other < contacts_.size(); ++other) {
+      if (other == k) continue;
+      headings = common(headings, headings_of(other, path(other).stretches()[tuple.stretches[other]].angle));
+    }
+    return !headings.is_empty();
+  }
+
+  /// Where on its stretch a contact can be with one of these headings.
+  Interval places_at(std::size_t k, std::size_t stretch, const HeadingArc& headings) const {
+    const CentreStretch& on = path(k).stretches()[stretch];
+    if (headings.is_all()) return on.u;
+    const double most = headings.half + contacts_[k].angle_most + kTurnAccuracy;
+    const double about = on.angle.middle() + nearest_angle(*contacts_[k].tangent - headings.middle - on.angle.middle());
+    return {place_of(k, stretch, about - most, false), place_of(k, stretch, about + most, true)};
+  }
+
+  /// The u of a stretch with this angle, or the end that is next to it: of an angle's upper bound the larger u where
+  /// angles grow with u, else the smaller one.
+  double place_of(std::size_t k, std::size_t stretch, double angle, bool is_upper) const {
+    const CentreStretch& on = path(k).stretches()[stretch];
+    const auto angle_at = [&](double u) { return path(k).at({stretch, u}).angle; };
+    const bool grows = angle_at(on.u.hi) >= angle_at(on.u.lo);
+    double lo = on.u.lo;
+    double hi = on.u.hi;
+    // Of angles that fall with u the bounds change their roles.
+    const double wanted = grows ? angle : 2 * on.angle.middle() - angle;
+    const bool upper = grows ? is_upper : !is_upper;
+    const auto value = [&](double u) { return grows ? angle_at(u) : 2 * on.angle.middle() - angle_at(u); };
+    if (value(on.u.lo) >= wanted && !upper) return on.u.lo;
+    if (value(on.u.hi) <= wanted && upper) return on.u.hi;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (lo + hi);
+      (value(middle) < wanted ? lo : hi) = middle;
+    }
+    return 0.5 * (lo + hi);
+  }
+
+  TouchContact contact_at(std::size_t k, std::size_t stretch, double heading) const {
+    const Interval places = places_at(k, stretch, {heading, 0});
+    const CentreStretch& on = path(k).stretches()[stretch];
+    const double lo = std::min(places.lo, places.hi);
+    const double hi = std::max(places.lo, places.hi);
+    const PathPlace place{stretch, std::clamp(0.5 * (lo + hi), on.u.lo, on.u.hi)};
+    const CentrePoint point = path(k).at(place);
+    TouchContact contact;
+    contact.s = path(k).part().boundary().canonical(point.s);
+    contact.point = path(k).contact(place);
+    contact.tangent = nearest_angle(point.angle);
+    contact.turn = nearest_angle(*contacts_[k].tangent - point.angle - heading);
+    return contact;
+  }
+
+  TouchPose described(const std::vector<std::size_t>& set) const {
+    // The tuple with most room is the one that is shown.
+    const std::size_t widest = *std::max_element(set.begin(), set.end(), [&](std::size_t a, std::size_t b) {
+      return tuples_[a].headings.half < tuples_[b].headings.half;
+    });
+    const Tuple& shown = tuples_[widest];
+    TouchPose pose;
+    const double heading = nearest_angle(shown.headings.middle);
+    pose.pose = {0, 0, heading};
+    Interval headings{heading, heading};
+    for (const std::size_t t : set) {
+      const HeadingArc& arc = tuples_[t].headings;
+      const double middle = heading + nearest_angle(arc.middle - heading);
+      headings = {std::min(headings.lo, middle - arc.half), std::max(headings.hi, middle + arc.half)};
+    }
+    pose.any_heading = headings.width() >= kFullTurn;
+    pose.extent[2] = headings;
+    double most = 0;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      pose.contacts.push_back(contact_at(k, shown.stretches[k], heading));
+      most = std::max(most, contacts_[k].angle_most);
+      const double turn = std::abs(*pose.contacts.back().turn);
+      pose.residual.turn = std::max(pose.residual.turn, turn);
+      pose.worst = std::max(pose.worst, turn / contacts_[k].angle_most);
+      extend_contact(k, set, pose.contacts.back());
+    }
+    const double much = kFreePlace * path(0).part().perimeter();
+    pose.continuum = headings.width() > kFreeHeading + kFreeTolerances * most ||
+                     std::any_of(pose.contacts.begin(), pose.contacts.end(),
+                                 [&](const TouchContact& contact) { return contact.extent->width() > much; });
+    return pose;
+  }
+
+  /// Around all places of a contact in a set, on the lap where the one that is shown is.
+  void extend_contact(std::size_t k, const std::vector<std::size_t>& set, TouchContact& contact) const {
+    const Boundary boundary = path(k).part().boundary();
+    Interval arc{contact.s, contact.s};
+    for (const std::size_t t : set) {
+      const std::size_t stretch = tuples_[t].stretches[k];
+      const CentreStretch& on = path(k).stretches()[stretch];
+      const Interval u = places_at(k, stretch, tuples_[t].headings);
+      for (const double end : {u.lo, u.hi}) {
+        double s = on.corner ? on.s : end;
+        if (boundary.closed) s = contact.s + std::remainder(s - contact.s, boundary.perimeter);
+        arc = {std::min(arc.lo, s), std::max(arc.hi, s)};
+      }
+    }
+    const double lo = boundary.on_first_lap(arc.lo);
+    contact.extent = Interval{lo, lo + std::min(arc.width(), boundary.perimeter)};
+  }
+
+  const std::vector<Measured>& contacts_;
+  std::size_t budget_;
+  std::vector<Tuple> tuples_;
+  HeadingSets result_;
+};
 
 // A place at an arc's end is on it, a share of the perimeter.
 constexpr double kSeam = 1e-9;
@@ -58,6 +253,10 @@ TouchPose pose_of(const RollContact& roll, const Placement& placement) {
 }
 
 }  // namespace
+
+HeadingSets heading_sets(const std::vector<Measured>& contacts, std::size_t budget) {
+  return HeadingSearch(contacts, budget).run();
+}
 
 bool is_reference(const Measured& contact) {
   return contact.has_place && contact.tree != nullptr && contact.place_most >= contact.tree->path().part().perimeter();

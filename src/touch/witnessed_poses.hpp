@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "cell_levels.hpp"
 #include "pose_sets.hpp"
 
 namespace rollfix::touch {

@@ -7,8 +7,8 @@
 #include "answer/crew.hpp"
 #include "outline/turn.hpp"
 #include "profile.hpp"
+#include "touch/all_contacts.hpp"
 #include "touch/measured.hpp"
-#include "touch/mirror_poses.hpp"
 #include "touch/requirements.hpp"
 
 // Notation, as in docs/touch.md, "How it works":

@@ -15,7 +15,7 @@
 #include "touch/roll_cases.hpp"
 #include "touch/touch_cases.hpp"
 
-namespace touch_and_prior_test {
+namespace weighed_by_prior_test {
 
 namespace {
 
@@ -139,4 +139,4 @@ TEST(TouchAndPrior, HoldTheTruthAsOftenAsTheirIntervalsSay) {
   EXPECT_NEAR(static_cast<double>(held) / cases, 0.95, 4 * std::sqrt(0.05 * 0.95 / cases));
 }
 
-}  // namespace touch_and_prior_test
+}  // namespace weighed_by_prior_test
