@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "hold/arc_tree.hpp"
-#include "hold/contact_look.hpp"
+#include "hold/hold_equations.hpp"
 #include "hold/held_question.hpp"
 #include "hold/hold_facts.hpp"
 #include "hold/hold_fit.hpp"
-#include "hold/hold_witness.hpp"
 #include "hold/requirements.hpp"
 #include "outline/turn.hpp"
 #include "places.hpp"

@@ -13,7 +13,7 @@
 //   q_i, delta_i    the contact in the world: `at`, `Slack::place`
 // Tests at each instant, for its heading phi: normals, |tau_i - theta_i - phi| <= w_i + eps_i for all i; chords,
 // |R(phi)(c_j - c_i) - (q_j - q_i)| <= rho_i + rho_j + delta_i + delta_j for all pairs that have places; of wheels
-// pin_search.cpp.
+// wheel_pins.cpp.
 // Follows docs/two_fingers.md, "Three and more fingers".
 // Idea: branch and prune, a generation of boxes after the other. If there is no room for the next generation, this one
 // is what fits: the boxes are coarser, and still hold all that fits.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "arc_tree.hpp"
-#include "pin_search.hpp"
 #include "touch/heading_arc.hpp"
+#include "wheel_pins.hpp"
 
 namespace rollfix::hold {
 

@@ -76,4 +76,8 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs);
 /// Rows to search with, in the order in which they tell most: the first, the last, the middle one, ...
 std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log);
 
+/// The same with neighbouring rows averaged, but for the first and the last one: of one finger beside wheels that move
+/// smoothly, but for noise, to as few means as say what the rows say, and to no more than 512 anyway.
+HeldRows averaged(const HeldRows& rows);
+
 }  // namespace rollfix::hold

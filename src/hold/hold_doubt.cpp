@@ -1,19 +1,39 @@
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numbers>
 
-#include "contact_look.hpp"
 #include "hold_equations.hpp"
 #include "outline/turn.hpp"
 
 // Notation as in hold_fit.cpp:
 //   q, d            a measurement's square and how many numbers it is; C: their covariance
-//   e, U            share of outliers; how dense they are, being anything
+//   eps, U          share of outliers; how dense they are, being anything
 //   w               probability that a measurement is none: it counts w q in the normal equations
-// A measurement is one finger's at one row: p = (1 - e) N(q; C) + e U, so that -2 log p replaces q. The slope of that
-// is w dq: weights by what is seen, computed anew in each round (Beaton and Tukey 1974). Priors are squares like
+//   A, W, r         a measurement's derivatives by its row's pose, C^-1 and residual; P = sum of A^T W A over the row
+//   e               how far contacts move in some way along the boundary; g, H: slope and matrix of unknowns u and e
+// A measurement is one finger's at one row: p = (1 - eps) N(q; C) + eps U, so that -2 log p replaces q. The slope of
+// that is w dq: weights by what is seen, computed anew in each round (Beaton and Tukey 1974). Priors are squares like
 // others.
+// Idea: one bad measurement, a wrong radius or a slip is lost in the sum of all squares. Each is looked at by what the
+// squares would lose if it were free (Rao's score test): a measurement by (W r)^T (W - W A P^-1 A^T W)^-1 (W r),
+// contacts that move by g_e^2 / (H_ee - H_eu H_uu^-1 H_ue), and the best of these by a fit. The best of n is n times as
+// probable by chance (Bonferroni).
 namespace rollfix::hold {
+namespace {
+
+// Where corners are in reach by this share of an angle's variance, it is off rarely and far: no normal number.
+constexpr double kCornerShare = 1e-3;
+// What the other measurements of a row don't tell to this share is no contradiction.
+constexpr double kTold = 1e-6;
+// Rows, evenly spread, before which each finger may have slipped.
+constexpr std::size_t kSlipPlaces = 16;
+
+double p_of(double square, double freedom) { return boost::math::gamma_q(0.5 * freedom, 0.5 * std::max(0.0, square)); }
+
+}  // namespace
 
 HoldFit::Counted HoldFit::counted(const Look& look, double square) const {
   if (rows_.outlier_share <= 0) return {square, 1};
@@ -76,6 +96,104 @@ void HoldFit::add_pose_prior(const Placed& placed, RowEquations& sum) const {
   sum.slope -= weighed * off;
   sum.square += square;
   sum.prior_square += square;
+}
+
+double HoldFit::p_of_measurement(const HeldState& state, std::size_t row, std::size_t finger,
+                                 const Eigen::Matrix3d& pose_covariance) const {
+  const Look one = look(state, row, finger);
+  if (one.blur_size > kCornerShare) return 1;
+  const Eigen::Matrix3d shared = one.information * one.by_pose;
+  const Eigen::Matrix3d left = one.information - shared * pose_covariance * shared.transpose();
+  const Eigen::Vector3d pull = one.information * one.residual;
+  if (!rows_.errors[finger].has_place) {
+    const bool is_told = left(2, 2) > kTold * one.information(2, 2);
+    return is_told ? p_of(pull(2) * pull(2) / left(2, 2), 1) : 1;
+  }
+  const bool is_told = left.determinant() > kTold * one.information.determinant();
+  return is_told ? p_of(pull.dot(left.inverse() * pull), 3) : 1;
+}
+
+double HoldFit::p_of_worst_measurement(const HeldState& state) const {
+  double least = 1;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    const Eigen::Matrix3d pose_covariance = equations(state, row, sights_at(state, row), false).pose.inverse();
+    for (std::size_t k = 0; k < fingers(); ++k) {
+      least = std::min(least, p_of_measurement(state, row, k, pose_covariance));
+    }
+  }
+  return std::min(1.0, least * static_cast<double>(rows_.rows.size() * fingers()));
+}
+
+std::vector<HoldFit::RowShare> HoldFit::row_shares(const HeldState& state) const {
+  std::vector<RowShare> shares;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    const RowEquations one = equations(state, row, sights_at(state, row), true);
+    const RowBlock by_pose = one.pose.ldlt().solve(one.mixed);
+    shares.push_back({one.own - UnknownsMatrix(one.mixed.transpose() * by_pose),
+                      one.own_slope - Unknowns(by_pose.transpose() * one.slope)});
+  }
+  return shares;
+}
+
+HoldFit::Moved HoldFit::best_moved(const std::vector<Way>& ways, const HeldState& state) const {
+  const std::vector<RowShare> shares = row_shares(state);
+  const Eigen::LDLT<UnknownsMatrix> all(reduced(state).matrix);
+  Moved best;
+  double most = 0;
+  for (const Way& way : ways) {
+    double slope = 0, matrix = 0;
+    Unknowns mixed = Unknowns::Zero(size_);
+    for (std::size_t row = 0; row < shares.size(); ++row) {
+      Unknowns by = Unknowns::Zero(size_);
+      for (std::size_t k = 0; k < fingers(); ++k) by(static_cast<Eigen::Index>(k)) = way(row, k);
+      const Unknowns share = shares[row].matrix * by;
+      slope += by.dot(shares[row].slope);
+      matrix += by.dot(share);
+      mixed += share;
+    }
+    const double left = matrix - mixed.dot(all.solve(mixed));
+    if (!(left > kTold * matrix) || slope * slope <= most * left) continue;
+    most = slope * slope / left;
+    best = {&way, slope / left};
+  }
+  return best;
+}
+
+/// The gain is what a fit has of it: where a place is known badly, squares are no paraboloid.
+double HoldFit::p_of_moved(const std::vector<Way>& ways, const HeldState& state) const {
+  const Moved moved = best_moved(ways, state);
+  if (moved.way == nullptr) return 1;
+  HeldRows rows = rows_;
+  for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+    for (std::size_t k = 0; k < fingers(); ++k) rows.rows[row].contacts[k].travelled += moved.by * (*moved.way)(row, k);
+  }
+  const HeldState without = HoldFit(part_, rows, wheels_).fit(state);
+  return std::min(1.0, p_of(state.square - without.square, 1) * static_cast<double>(ways.size()));
+}
+
+double HoldFit::p_of_lengths(const HeldState& state) const {
+  const auto travelled = [&](std::size_t row, std::size_t k) { return rows_.rows[row].contacts[k].travelled; };
+  std::vector<Way> ways{travelled};
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    ways.emplace_back([&, k](std::size_t row, std::size_t other) { return other == k ? travelled(row, k) : 0; });
+  }
+  return p_of_moved(ways, state);
+}
+
+double HoldFit::p_of_slip(const HeldState& state) const {
+  std::vector<Way> ways;
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    for (std::size_t j = 1; j <= kSlipPlaces; ++j) {
+      const std::size_t from = j * rows_.rows.size() / (kSlipPlaces + 1);
+      ways.emplace_back([k, from](std::size_t row, std::size_t other) { return other == k && row >= from ? 1 : 0; });
+    }
+  }
+  return p_of_moved(ways, state);
+}
+
+double HoldFit::p_of_oddest(const HeldState& state) const {
+  if (rows_.outlier_share > 0 || wheels() > 0) return 1;
+  return std::min({p_of_worst_measurement(state), p_of_lengths(state), p_of_slip(state)});
 }
 
 }  // namespace rollfix::hold

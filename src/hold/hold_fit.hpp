@@ -9,7 +9,7 @@
 
 #include "box_search.hpp"
 #include "held_rows.hpp"
-#include "wheel_path.hpp"
+#include "wheel_pins.hpp"
 
 namespace rollfix::hold {
 
@@ -116,7 +116,7 @@ class HoldFit {
   /// Numbers that the rows say, less those that each row's pose takes; angles of pivots count as one for each corner.
   double freedom(const HeldState& state) const;
   /// With noise: how probable rows are that contradict a fit so much by one measurement alone, by the lengths of one
-  /// finger or of all, or by a slip, whichever is the least: hold_misfit.cpp. Of fits with
+  /// finger or of all, or by a slip, whichever is the least: hold_doubt.cpp. Of fits with
   /// outliers or beside wheels 1: there it is not looked for.
   double p_of_oddest(const HeldState& state) const;
 

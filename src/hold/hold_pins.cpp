@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "contact_look.hpp"
 #include "hold_equations.hpp"
 #include "outline/turn.hpp"
 

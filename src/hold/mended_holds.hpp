@@ -2,12 +2,20 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "rollfix/hold.hpp"
 
 // Logs as they would be without a mistake.
 namespace rollfix::hold {
+
+/// These rows of a log of one finger, in order.
+Log with_rows(const Log& log, const std::vector<std::size_t>& rows);
+
+/// Leaves rows out of all logs in which a finger jumps farther than is physical, and comes back. Which they were, as in
+/// "b.csv, line 17". `logs`: aligned.
+std::vector<std::string> leave_out_jumps(const HoldProblem& problem, std::vector<Log>& logs);
 
 /// A mistake in how columns are read, in all logs or in one: what it is, and the problem without it.
 struct Mended {

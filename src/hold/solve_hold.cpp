@@ -9,13 +9,11 @@
 #include "hold_facts.hpp"
 #include "hold_fit.hpp"
 #include "hold_mistakes.hpp"
-#include "hold_witness.hpp"
-#include "log_jumps.hpp"
+#include "mended_holds.hpp"
 #include "requirements.hpp"
 #include "rollfix/hold.hpp"
 #include "rollfix/pulse.hpp"
 #include "weigh_holds.hpp"
-#include "wheels_apart.hpp"
 
 // Follows docs/two_fingers.md, "Three and more fingers".
 namespace rollfix {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "answer_holds.hpp"
-#include "averaged_rows.hpp"
 #include "fingers_apart.hpp"
+#include "held_rows.hpp"
 #include "hold_fit.hpp"
 
 // Notation:

@@ -16,7 +16,7 @@
 
 // One mistake in logs of three fingers: how often it is noticed, and how often a wrong place is sure without a word.
 // What it is, is not looked for: hold_mistakes_test.cpp.
-namespace hold_misfit_test {
+namespace hold_doubt_witness_test {
 
 using namespace hold_cases;
 using noisy_holds::noisy;
@@ -178,4 +178,4 @@ TEST(SlowHoldMisfitOfCentres, Exchanged) {
   expect_rarely_sure({"x for y", exchange}, true);
 }
 
-}  // namespace hold_misfit_test
+}  // namespace hold_doubt_witness_test
