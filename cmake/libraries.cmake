@@ -108,7 +108,7 @@ if(ROLLFIX_BUILD_DRAW)
     HEADERS ${draw_headers}
     HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
   rollfix_writes(rollfix_draw)
-  # Their headers alone: the libraries are loaded with the first PNG or PDF (see src/draw/render.hpp).
+  # Their headers alone: the libraries are loaded with the first PNG or PDF (see src/draw/save.cpp).
   target_include_directories(rollfix_draw SYSTEM PRIVATE ${ROLLFIX_RSVG_INCLUDE_DIRS} ${ROLLFIX_CAIRO_INCLUDE_DIRS})
   target_link_libraries(rollfix_draw
     PUBLIC rollfix

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "draw/answer/ellipse.hpp"
-#include "draw/density_profile.hpp"
+#include "draw/answer/densities.hpp"
 #include "draw/plot.hpp"
 #include "draw_helpers.hpp"
 #include "noisy_pairs.hpp"

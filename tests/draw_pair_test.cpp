@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/answer/contours.hpp"
+#include "draw/answer/densities.hpp"
 #include "draw_helpers.hpp"
 #include "pair_cases.hpp"
 #include "rollfix/draw.hpp"

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "draw/render.hpp"
+#include "draw/save.hpp"
 #include "draw_helpers.hpp"
 #include "rollfix/error.hpp"
 

@@ -8,6 +8,15 @@
 
 #include "legend.hpp"
 
+// Notation:
+//   a, n            anchors of a label and the direction away from the lines there: LabelRequest
+//   candidate       a place at a distance d from an anchor, by an angle off n or -n; its cost in pixels is d, what the
+//                   angle is worth, and what is covered of the box: `candidates`
+//   N               of the raster of what is taken, sums over all cells above and to the left: `taken_`
+//   covered         N at the box's four corners, added and subtracted: F. C. Crow, "Summed-area tables for texture
+//                   mapping" (1984)
+// Idea: each label takes its cheapest place; then, a few times over, each in turn the cheapest in view of where the
+// others are now.
 namespace rollfix::draw {
 namespace {
 

@@ -14,7 +14,6 @@
 #include "scene.hpp"
 #include "text/text.hpp"
 #include "trace.hpp"
-#include "world.hpp"
 
 namespace rollfix {
 namespace draw {

@@ -1,7 +1,6 @@
 #include "plot.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +36,51 @@ Ticks ticks_at(const Interval& range, double step) {
   return ticks;
 }
 
+/// Decimals that show two digits of a standard deviation.
+int decimals_of(double sd) { return std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 12); }
+
+/// "0.00", never "-0.00".
+std::string without_sign_of_zero(std::string text) {
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+std::string fixed(double value, int decimals) {
+  return with_minus(without_sign_of_zero(fmt::format("{:.{}f}", value, decimals)));
+}
+
+constexpr double kNumberSize = 9.5;  // pixels
+constexpr double kTitleSize = 11;
+constexpr double kBetweenNumbers = 4;
+constexpr double kColumn = 1.0 / 3;
+constexpr std::string_view kGrid = "#e4e4e4";
+
+constexpr std::size_t kQuantileSamples = 4001;
+constexpr double kQuantile = 0.97;   // of the boundary has less curvature than what is called usual
+constexpr double kPeak = 3;          // times the usual curvature is a peak that gets cut ...
+constexpr double kCut = 1.6;         // ... at this many times the usual one
+constexpr double kSampleStep = 0.7;  // between samples of a graph, pixels
+constexpr double kStraight = 1e-6;   // degrees: a boundary that turns less is shown as straight
+
+/// Least and greatest value at the spirals' ends: both angle and curvature are monotone on a spiral.
+Interval value_range(const Part& part, const std::function<double(const Turning&)>& value) {
+  Interval range{1e300, -1e300};
+  for (const Spiral& spiral : part.turning().spirals()) {
+    range.lo = std::min({range.lo, value(spiral.start), value(spiral.end)});
+    range.hi = std::max({range.hi, value(spiral.start), value(spiral.end)});
+  }
+  return range;
+}
+
+constexpr double kWorldLeft = 58;  // around the frame, pixels
+constexpr double kWorldRight = 16;
+constexpr double kWorldAbove = 22;
+constexpr double kWorldBelow = 34;
+constexpr double kWorldLeastHeight = 160;
+constexpr double kWorldMostHeight = 720;
+constexpr double kWorldMargin = 0.06;       // of what is shown
+constexpr double kWorldLeastMargin = 1e-9;  // of the perimeter: a point has no size
+
 }  // namespace
 
 std::string pretty(double value, int digits) {
@@ -57,23 +101,6 @@ std::string percent(double probability) {
   if (probability < 0.001) return "< 0.1 %";
   return pretty(100 * probability, probability < 0.1 ? 2 : 3) + " %";
 }
-
-namespace {
-
-/// Decimals that show two digits of a standard deviation.
-int decimals_of(double sd) { return std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 12); }
-
-/// "0.00", never "-0.00".
-std::string without_sign_of_zero(std::string text) {
-  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
-  return is_zero && text[0] == '-' ? text.substr(1) : text;
-}
-
-std::string fixed(double value, int decimals) {
-  return with_minus(without_sign_of_zero(fmt::format("{:.{}f}", value, decimals)));
-}
-
-}  // namespace
 
 std::string as_sure_as(double value, double sd) { return sd > 0 ? fixed(value, decimals_of(sd)) : pretty(value, 6); }
 
@@ -124,16 +151,6 @@ std::string tick_text(double value, int decimals) {
   if (decimals > kMostDecimals || std::abs(value) >= kMostPlain) return pretty(value, 6);
   return fixed(value, decimals);
 }
-
-namespace {
-
-constexpr double kNumberSize = 9.5;  // pixels
-constexpr double kTitleSize = 11;
-constexpr double kBetweenNumbers = 4;
-constexpr double kColumn = 1.0 / 3;
-constexpr std::string_view kGrid = "#e4e4e4";
-
-}  // namespace
 
 void draw_axes(Svg& svg, const Axes& axes, const Ticks& x_ticks, const Ticks& y_ticks, const Text& title,
                const std::string& note) {
@@ -210,27 +227,6 @@ Interval widened(const Interval& range, double fraction) {
   return {range.lo - margin, range.hi + margin};
 }
 
-namespace {
-
-constexpr std::size_t kQuantileSamples = 4001;
-constexpr double kQuantile = 0.97;   // of the boundary has less curvature than what is called usual
-constexpr double kPeak = 3;          // times the usual curvature is a peak that gets cut ...
-constexpr double kCut = 1.6;         // ... at this many times the usual one
-constexpr double kSampleStep = 0.7;  // between samples of a graph, pixels
-constexpr double kStraight = 1e-6;   // degrees: a boundary that turns less is shown as straight
-
-/// Least and greatest value at the spirals' ends: both angle and curvature are monotone on a spiral.
-Interval value_range(const Part& part, const std::function<double(const Turning&)>& value) {
-  Interval range{1e300, -1e300};
-  for (const Spiral& spiral : part.turning().spirals()) {
-    range.lo = std::min({range.lo, value(spiral.start), value(spiral.end)});
-    range.hi = std::max({range.hi, value(spiral.start), value(spiral.end)});
-  }
-  return range;
-}
-
-}  // namespace
-
 CurvatureRange shown_curvature(const Part& part) {
   const TurningFunction& turning = part.turning();
   const Interval all = value_range(part, [](const Turning& at) { return at.curvature; });
@@ -272,6 +268,44 @@ std::vector<Vec2> graph(const Part& part, const Axes& axes, const std::function<
     points.push_back(axes(spiral.hi, value(spiral.end)));
   }
   return thinned(points);
+}
+
+World::World(const Box& seen, const Part& part, double width) {
+  const double margin = std::max(kWorldMargin * seen.sizes().maxCoeff(), kWorldLeastMargin * part.perimeter());
+  const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
+  const double across = width - kWorldLeft - kWorldRight;
+  const double height = std::clamp(across * wide.sizes().y() / wide.sizes().x(), kWorldLeastHeight, kWorldMostHeight);
+  scale_ = std::min(across / wide.sizes().x(), height / wide.sizes().y());
+  const Vec2 half = 0.5 * Vec2(across, height) / scale_;
+  axes_.corner = {kWorldLeft, kHeaderHeight + kWorldAbove};
+  axes_.size = {across, height};
+  axes_.x = {wide.center().x() - half.x(), wide.center().x() + half.x()};
+  axes_.y = {wide.center().y() - half.y(), wide.center().y() + half.y()};
+}
+
+double World::bottom() const { return axes_.corner.y() + axes_.size.y() + kWorldBelow; }
+
+std::vector<Vec2> World::path(const std::vector<Vec2>& points) const {
+  std::vector<Vec2> page;
+  for (const Vec2& point : points) page.push_back(at(point));
+  return page;
+}
+
+void World::open(Svg& svg, const std::string& words) const {
+  svg.open_group("world");
+  draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{words}}, "");
+  svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
+}
+
+void World::close(Svg& svg) {
+  svg.close_group();
+  svg.close_group();
+}
+
+std::vector<Vec2> posed(const std::vector<Vec2>& points, const Pose& pose, bool mirrored) {
+  std::vector<Vec2> world;
+  for (const Vec2& point : points) world.push_back(pose.world({mirrored ? -point.x() : point.x(), point.y()}));
+  return world;
 }
 
 }  // namespace rollfix::draw

@@ -6,6 +6,13 @@
 #include "legend.hpp"
 #include "outline/turn.hpp"
 
+// Notation:
+//   run             from which length of a roll to which one it goes in one direction: Run; each has a lane of its own
+//   lane            how far beside the boundary a path is drawn: `assign_lanes` takes the first that is free there
+//   d(s)            its distance from the boundary: `offset`; the path is p(s) + d n(s), at a convex corner with a fan
+//                   of n
+// Idea: such a path runs into itself where the boundary is hollow. Points nearer to any other stretch of the boundary
+// than d are left out, and if hardly any is left it is drawn nearer.
 namespace rollfix::draw {
 
 namespace {

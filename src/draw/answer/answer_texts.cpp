@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "draw/answer/answer_plan.hpp"
-#include "draw/answer/ellipse.hpp"
+#include "draw/answer/densities.hpp"
 
 namespace rollfix::draw {
 namespace {

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "draw/answer/answer_plan.hpp"
-#include "draw/answer/contours.hpp"
-#include "draw/answer/ellipse.hpp"
+#include "draw/answer/densities.hpp"
 #include "draw/labels.hpp"
 
 namespace rollfix::draw {

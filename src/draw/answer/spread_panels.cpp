@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "draw/answer/answer_plan.hpp"
-#include "draw/answer/ellipse.hpp"
-#include "draw/density_profile.hpp"
+#include "draw/answer/densities.hpp"
 #include "draw/labels.hpp"
 
 namespace rollfix::draw {

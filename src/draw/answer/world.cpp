@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "draw/answer/answer_plan.hpp"
-#include "draw/answer/ellipse.hpp"
+#include "draw/answer/densities.hpp"
 #include "draw/legend.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/log.hpp"

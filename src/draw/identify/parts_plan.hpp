@@ -9,6 +9,7 @@
 #include "draw/legend.hpp"
 #include "rollfix/draw.hpp"
 
+// What is decided about a figure of parts before it is drawn, and what is written in it.
 namespace rollfix::draw {
 
 /// What is decided about one part's panel before it is drawn.
@@ -53,5 +54,25 @@ inline constexpr double kScaleBarHeight = 22;  // below a part that has one of i
 
 /// Throws what draw_parts does. The figure has to outlive the plan.
 PartsPlan plan_of(const PartsFigure& figure);
+
+inline constexpr double kNoteSize = 10;  // of all but names, pixels
+
+/// The first placements, each with its start and its end.
+Legend panel_legend(const Plan& plan, double width);
+
+/// "2 places", "any place", and what is wrong with them.
+std::string places_text(const Plan& plan);
+
+/// "can't be told from a, b and 3 more", as many names as there is room for.
+std::string congruent_text(const std::vector<std::string>& names, double width);
+
+/// "2 of 1802 parts fit"; empty: it is not known of how many.
+std::string fit_text(const PartsFigure& figure);
+
+/// The readings, which are those of all parts; of two fingers what is whose.
+Text roll_text(const PartsPlan& plan);
+
+/// What the drawings leave unsaid, as lines that fit on the page.
+std::vector<std::string> footer_of(const PartsPlan& plan);
 
 }  // namespace rollfix::draw
