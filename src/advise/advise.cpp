@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "advise/comparison.hpp"
-#include "advise/travel_to_go.hpp"
 #include "rollfix/error.hpp"
 
 // Notation, as in docs/belief.md, "The next roll":

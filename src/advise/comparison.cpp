@@ -1,21 +1,99 @@
 #include "advise/comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "belief/posterior.hpp"
+#include "rollfix/turning_function.hpp"
 
 // Notation:
 //   i, j, p_i       places that are left, and their probabilities: Hypothesis
-//   x               length of a roll; y_i, V_i: the turn that place i would measure then, and its variance: Seen
+//   x               length of a roll on a way; y_i, V_i: the turn that place i would measure then, and its variance:
+//                   Seen
 //   d_ij^2          the largest (y_i - y_j)^2 / (V_i + V_j) on the way: `distance_`
 //   q_j             p_j exp(-d_ij^2 / 2) over their sum: what j is worth where i is true: `left`
 //   bits            H(p) - sum over i of p_i H(q), H being the entropy
+//   f_ij, b_ij      the travel on and back that tells j from a true i: `told`, Other
+//   left            where i is true, on to the last f and back to the last b, the shorter way twice: `shorter_way`
 // Follows docs/belief.md, "The next roll", and docs/two_fingers.md, "The next roll".
 // Idea: a roll is read all along, so that what has told two places apart stays told: their largest distance counts.
+// Which place is the true one is not known by whoever decides to roll on or back: one way for all, by the mean of
+// `left`.
 namespace rollfix::belief {
 namespace {
+
+// Of two fingers: one alone, which is the least to do, both, or one half as far as the other.
+constexpr std::array<std::array<double, 2>, 8> kWaysOfTwo = {
+    {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {1, 0.5}, {1, -0.5}, {0.5, 1}, {-0.5, 1}}};
+// Places along a way, to either side, at which it is looked whether two disks overlap.
+constexpr std::size_t kLooks = 64;
+
+/// The lengths over which this finger can roll in every hypothesis that counts.
+Interval common_travel(const std::vector<PartHypothesis>& hypotheses, const std::optional<Interval>& wanted,
+                       std::size_t finger) {
+  const double shortest = shortest_perimeter(hypotheses);
+  Interval travel = wanted.value_or(Interval{-shortest, shortest});
+  for (const PartHypothesis& one : hypotheses) {
+    if (!counts(one, hypotheses.size())) continue;
+    const double place = one.hypothesis.place[finger];
+    if (!one.part->closed()) {
+      travel.lo = std::max(travel.lo, -place);
+      travel.hi = std::min(travel.hi, one.part->perimeter() - place);
+    }
+    const Reach* const reach = one.reach[finger];
+    if (reach == nullptr || reach->whole_loop) continue;
+    const std::optional<Interval> arc = reach->arc_at(place);
+    if (!arc) continue;
+    travel.lo = std::max(travel.lo, std::min(0.0, arc->lo - place));
+    travel.hi = std::min(travel.hi, std::max(0.0, arc->hi - place));
+  }
+  return travel;
+}
+
+/// A disk's centre in the part's frame.
+Vec2 disk_at(const Part& part, double s, double radius) {
+  const double tangent = part.turning().angle(s);
+  return part.point(s) + radius * Vec2(std::sin(tangent), -std::cos(tangent));
+}
+
+bool overlap(const PartHypothesis& one, const PerFinger<double>& disks, const Way& way, double x) {
+  const auto centre = [&](std::size_t finger) {
+    return disk_at(*one.part, one.hypothesis.place[finger] + x * way.direction[finger], disks[finger]);
+  };
+  return (centre(0) - centre(1)).norm() < disks[0] + disks[1];
+}
+
+/// As far as no hypothesis that counts has one disk in the other. Where they overlap from the start it is not known
+/// better.
+void stop_at_overlap(const std::vector<PartHypothesis>& hypotheses, const PerFinger<double>& disks, Way& way) {
+  for (const PartHypothesis& one : hypotheses) {
+    if (!counts(one, hypotheses.size()) || overlap(one, disks, way, 0)) continue;
+    for (double* const end : {&way.travel.lo, &way.travel.hi}) {
+      const double whole = *end;
+      for (std::size_t k = 1; k <= kLooks; ++k) {
+        const double x = whole * static_cast<double>(k) / kLooks;
+        if (!overlap(one, disks, way, x)) continue;
+        *end = whole * static_cast<double>(k - 1) / kLooks;
+        break;
+      }
+    }
+  }
+}
+
+/// Over which both fingers have travel left.
+Interval travel_on(const PerFinger<double>& direction, const std::array<Interval, 2>& each) {
+  Interval travel{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const std::size_t finger : {0U, 1U}) {
+    if (direction[finger] == 0) continue;
+    const double a = each[finger].lo / direction[finger];
+    const double b = each[finger].hi / direction[finger];
+    travel = {std::max(travel.lo, std::min(a, b)), std::min(travel.hi, std::max(a, b))};
+  }
+  return travel;
+}
 
 // What tells two places apart only in part, at this share of the squared distance that is wanted, is still gone for
 // where nothing within the travel tells more.
@@ -30,7 +108,34 @@ double distance_wanted(double of_true, double of_other) {
 /// Finger a's turn counts with this sign, finger b's with the other.
 double sign_of(std::size_t finger) { return finger == 0 ? 1 : -1; }
 
+// Of a wide placement, what is nearer to each other than this share of the perimeter need not be told apart: a region
+// of a posterior that is twice as long is called a stretch.
+constexpr double kOnePlace = 0.05;
+constexpr double kNotTold = std::numeric_limits<double>::infinity();
+
 }  // namespace
+
+bool counts(const PartHypothesis& one, std::size_t hypotheses) {
+  return one.hypothesis.probability >= kHypothesisCounts || hypotheses == 1;
+}
+
+std::vector<Way> ways_of(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
+  if (options.foresees) {
+    std::vector<Way> given;
+    for (const auto& [direction, travel] : options.ways) given.push_back({direction, travel});
+    return given;
+  }
+  const Interval of_a = common_travel(hypotheses, options.travel, 0);
+  if (hypotheses.front().hypothesis.place.size() == 1) return {Way{1.0, of_a}};
+  const std::array<Interval, 2> each = {of_a, common_travel(hypotheses, options.travel, 1)};
+  std::vector<Way> ways;
+  for (const std::array<double, 2>& direction : kWaysOfTwo) {
+    Way way{direction, travel_on(direction, each)};
+    if (options.disks) stop_at_overlap(hypotheses, *options.disks, way);
+    ways.push_back(way);
+  }
+  return ways;
+}
 
 double entropy(const std::vector<double>& weights) {
   double bits = 0;
@@ -143,6 +248,98 @@ ExpectedGain Comparison::expected(double x) const {
     gain.placements += prior[i] * static_cast<double>(counts);
   }
   return gain;
+}
+
+Travel::Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward)
+    : hypotheses_(hypotheses), back_(back), forward_(forward) {
+  const std::size_t n = hypotheses.size();
+  others_.resize(n);
+  for (const PartHypothesis& one : hypotheses) of_label_[one.hypothesis.label] += one.hypothesis.probability;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) add_other(i, j);
+  }
+}
+
+bool Travel::tells_any() const {
+  return std::any_of(others_.begin(), others_.end(), [](const auto& others) { return !others.empty(); });
+}
+
+double Travel::after(double x) const {
+  double on = 0;
+  double back = 0;
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    const auto [if_on, if_back] = left_after(i, x);
+    on += hypotheses_[i].hypothesis.probability * if_on;
+    back += hypotheses_[i].hypothesis.probability * if_back;
+  }
+  return std::abs(x) + std::min(on, back);
+}
+
+double Travel::open_after(double x) const {
+  double open = 0;
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    if (is_open_after(i, x)) open += hypotheses_[i].hypothesis.probability;
+  }
+  return open;
+}
+
+bool Travel::matters(std::size_t i, std::size_t j) const { return i != j && !are_one_place(i, j) && counts(j); }
+
+void Travel::add_other(std::size_t i, std::size_t j) {
+  if (!matters(i, j)) return;
+  for (std::size_t how = 0; how < 2; ++how) {
+    const Other other{forward_.told(i, j)[how], back_.told(i, j)[how]};
+    if (std::min(other.forward, other.back) == kNotTold) continue;
+    others_[i].push_back(other);
+    return;
+  }
+}
+
+/// Of one placement, which need not get narrower than that.
+bool Travel::are_one_place(std::size_t i, std::size_t j) const {
+  const Part& part = *hypotheses_[i].part;
+  const Hypothesis& one = hypotheses_[i].hypothesis;
+  const Hypothesis& other = hypotheses_[j].hypothesis;
+  if (one.label != other.label) return false;
+  for (std::size_t k = 0; k < one.place.size(); ++k) {
+    if (part.boundary().distance(one.place[k], other.place[k]) >= kOnePlace * part.perimeter()) return false;
+  }
+  return true;
+}
+
+bool Travel::is_open_after(std::size_t i, double x) const {
+  return std::any_of(others_[i].begin(), others_[i].end(),
+                     [&](const Other& other) { return x == 0 || (x > 0 ? other.forward : other.back) > std::abs(x); });
+}
+
+/// If i is the true one, the travel that is left: as far on as it takes and back only for what that alone tells, and
+/// the reverse.
+std::array<double, 2> Travel::left_after(std::size_t i, double x) const {
+  const double rolled = std::abs(x);
+  std::vector<Other> left;  // seen from here: those not told yet, on the same way and on the other one
+  Other only{0, 0};         // ... those that one way alone tells
+  for (Other other : others_[i]) {
+    if (x < 0) std::swap(other.forward, other.back);
+    if (x != 0 && other.forward <= rolled) continue;
+    left.push_back(other);
+    if (other.back == kNotTold) only.forward = std::max(only.forward, other.forward);
+    if (other.forward == kNotTold) only.back = std::max(only.back, other.back);
+  }
+  if (left.empty()) return {0, 0};
+  Other mostly_on = only;
+  Other mostly_back = only;
+  for (const Other& other : left) {
+    if (other.back > only.back) mostly_on.forward = std::max(mostly_on.forward, other.forward);
+    if (other.forward > only.forward) mostly_back.back = std::max(mostly_back.back, other.back);
+  }
+  return {shorter_way(mostly_on, rolled), shorter_way(mostly_back, rolled)};
+}
+
+/// To both ends, from a place that far ahead of where both are counted from.
+double Travel::shorter_way(const Other& ends, double rolled) {
+  const double on = std::max(ends.forward - rolled, 0.0);
+  const double back = ends.back > 0 ? ends.back + rolled : 0;
+  return on + back + std::min(on, back);
 }
 
 }  // namespace rollfix::belief
