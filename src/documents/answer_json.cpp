@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "documents/documents.hpp"
+#include "rollfix/documents.hpp"
 
 namespace rollfix {
 namespace {
@@ -152,6 +153,10 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"log_odds", json_number(diagnosis.log_odds)}};
 }
 
+std::string laid_out(const Json& document, Layout layout) {
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
 }  // namespace
 
 Json readings_json(const Answer& answer) {
@@ -289,6 +294,31 @@ Json answer_json(const Answer& answer, bool explain) {
       diagnoses_json(answer.diagnoses, answer.fingers, answer.weighing ? answer.weighing->noise : Noise{});
   if (explain) document["impossible"] = list_of(answer.impossible, impossible_json);
   return document;
+}
+
+std::string format_answer(const Answer& answer, Layout layout, bool explain) {
+  return laid_out(answer_json(answer, explain), layout);
+}
+
+std::string format_inspection(const Inspection& inspection, const LoadedPart& loaded, Layout layout) {
+  Json document = inspection_json(inspection);
+  document["loops"] = loops_json(loaded);
+  return laid_out(document, layout);
+}
+
+std::string format_next_roll(const NextRoll& next, Layout layout) { return laid_out(next_roll_json(next), layout); }
+
+std::string format_taught(const Inspection& inspection, const Taught& taught, Layout layout) {
+  Json document = inspection_json(inspection);
+  document["schema"] = "rollfix/teach/1";
+  document["taught"] = taught_json(taught);
+  return laid_out(document, layout);
+}
+
+std::string format_solution(const Solution& solution, Layout layout, bool explain) {
+  if (solution.at_rest() != nullptr) return format_touches(*solution.at_rest(), layout);
+  if (solution.moving() != nullptr) return format_hold(*solution.moving(), layout);
+  return format_answer(*solution.roll(), layout, explain);
 }
 
 }  // namespace rollfix

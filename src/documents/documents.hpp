@@ -8,6 +8,7 @@
 #include "rollfix/advise.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/inspect.hpp"
+#include "rollfix/part.hpp"
 #include "rollfix/solve.hpp"
 #include "rollfix/teach.hpp"
 #include "rollfix/touch.hpp"
@@ -68,5 +69,13 @@ Json noise_json(const Noise& noise);
 Json pose_prior_json(
     const std::optional<PosePrior>& prior);    // null without; x and y are where only the heading is known
 Json accuracy_json(const Accuracy& accuracy);  // null where it is exact
+
+/// The boundary as samples_of gives it, as CSV with a line of titles: s,x,y,tangent,curvature, lengths with the part's
+/// unit behind them as in x [mm]; the tangent in radians.
+/// Numbers read back as the same doubles.
+std::string outline_table(const Part& part);
+
+/// The same as JSON: a list for each of these names.
+Json outline_json(const Part& part);
 
 }  // namespace rollfix

@@ -1,13 +1,28 @@
 #include <fmt/format.h>
-
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "documents/documents.hpp"
-#include "documents/outline_numbers.hpp"
 #include "rollfix/files.hpp"
+#include "rollfix/part.hpp"
 
 namespace rollfix {
 namespace {
+
+/// A column: its value of a sample, and whether that is a length.
+struct Column {
+  const char* name;
+  double (*value)(const BoundarySample&);
+  bool is_length;
+};
+constexpr std::array<Column, 5> kColumns = {
+    {{"s", [](const BoundarySample& at) { return at.s; }, true},
+     {"x", [](const BoundarySample& at) { return at.point.x(); }, true},
+     {"y", [](const BoundarySample& at) { return at.point.y(); }, true},
+     {"tangent", [](const BoundarySample& at) { return at.tangent; }, false},
+     {"curvature", [](const BoundarySample& at) { return at.curvature; }, false}}};
 
 Json corners_json(const Part& part) {
   Json list = Json::array();
@@ -56,6 +71,35 @@ Json reach_json(const Inspection& inspection) {
 
 }  // namespace
 
+std::string outline_table(const Part& part) {
+  std::string text;
+  for (const Column& column : kColumns) {
+    const std::string unit = column.is_length && !part.unit().empty() ? fmt::format(" [{}]", part.unit()) : "";
+    text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.name, unit);
+  }
+  text += '\n';
+  for (const BoundarySample& sample : samples_of(part)) {
+    const char* separator = "";
+    for (const Column& column : kColumns) {
+      fmt::format_to(std::back_inserter(text), "{}{}", separator, column.value(sample));
+      separator = ",";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+Json outline_json(const Part& part) {
+  Json lists = Json::object();
+  const std::vector<BoundarySample> samples = samples_of(part);
+  for (const Column& column : kColumns) {
+    Json list = Json::array();
+    for (const BoundarySample& sample : samples) list.push_back(json_number(column.value(sample)));
+    lists[column.name] = std::move(list);
+  }
+  return lists;
+}
+
 std::string name_of(const Finger& finger) {
   const std::optional<DiskFinger> disk = finger.disk();
   return disk ? fmt::format("disk,r={}", disk->radius) : finger.name();
@@ -100,6 +144,36 @@ Json inspection_json(const Inspection& inspection) {
           {"ambiguity", ambiguity_json(inspection)},
           {"reach", reach_json(inspection)},
           {"outline", outline_json(part)}};
+}
+
+const char* name_of(Closing closing) {
+  switch (closing) {
+    case Closing::spread:
+      return "spread";
+    case Closing::bridged:
+      return "bridged";
+    case Closing::kept_open:
+      return "kept_open";
+    case Closing::not_asked:
+      break;
+  }
+  return "open";
+}
+
+Json taught_json(const Taught& taught) {
+  return {{"closing", name_of(taught.closing)},
+          {"rolled", taught.rolled},
+          {"lap", taught.lap},
+          {"overlap", taught.overlap},
+          {"turns", taught.turns},
+          {"turn_gap", taught.turn_gap},
+          {"turn_allowed", taught.turn_allowed},
+          {"gap", taught.gap},
+          {"gap_allowed", taught.gap_allowed},
+          {"bridge", taught.bridge},
+          {"correction", taught.correction},
+          {"deviation", taught.deviation},
+          {"row_sd", taught.row_sd}};
 }
 
 }  // namespace rollfix

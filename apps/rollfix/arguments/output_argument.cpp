@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "documents/outline_numbers.hpp"
+#include "documents/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"

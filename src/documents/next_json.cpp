@@ -1,7 +1,48 @@
+#include <array>
+
 #include "documents/documents.hpp"
 #include "rollfix/documents.hpp"
 
 namespace rollfix {
+namespace {
+
+template <class Entry>
+Json planned_each(std::size_t fingers, const Entry& entry) {
+  Json list = Json::array();
+  for (std::size_t which = 0; which < fingers; ++which) list.push_back(entry(which));
+  return list;
+}
+
+const char* name_of_path(PlanPath path) {
+  switch (path) {
+    case PlanPath::even:
+      return "even";
+    case PlanPath::searched:
+      return "searched";
+    case PlanPath::squeezed:
+      return "squeezed";
+  }
+  return "";
+}
+
+Json margin_json(const PlanMargin& margin) {
+  return {{"condition", name_of(margin.condition)},
+          {"finger", margin.finger},
+          {"value", json_number(margin.value)},
+          {"allowed", json_number(margin.allowed)},
+          {"time", json_number(margin.time)},
+          {"row", margin.row},
+          {"contacts", planned_each(margin.place.size(), [&](std::size_t k) { return json_number(margin.place[k]); })},
+          {"fails", margin.fails},
+          {"proved", margin.proved}};
+}
+
+Json pose_json(const Plan& plan, const PlanProblem& problem, bool last) {
+  const Pose& pose = plan.roll.pose.empty() ? problem.pose : last ? plan.roll.pose.back() : plan.roll.pose.front();
+  return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading});
+}
+
+}  // namespace
 
 Json per_finger_json(const PerFinger<double>& values) {
   return values.size() == 1 ? json_number(values[0]) : json_numbers(values);
@@ -60,6 +101,32 @@ std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout 
   Json document = advice_json(held.verdict_text(), {{"part", part_json(held.part)}}, next.advice, next.why, hypotheses);
   document["pin"] = document["length"];
   document["length"] = nullptr;
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
+std::string format_plan_document(const Plan& plan, const PlanProblem& problem, Layout layout) {
+  const std::size_t fingers = plan.length.size();
+  const auto rows_of = [&](std::size_t which) -> const FingerRows& { return plan.roll.log.fingers[which]; };
+  Json document = {
+      {"schema", "rollfix/plan/1"},
+      {"status", plan.decided || plan.failure ? "complete" : "incomplete"},
+      {"verdict", verdict_text(plan, problem)},
+      {"feasible", plan.feasible()},
+      {"failure", plan.failure ? Json(*plan.failure) : Json(nullptr)},
+      {"fingers", fingers},
+      {"path", name_of_path(plan.path)},
+      {"press", fingers == 1 ? Json(nullptr) : Json(plan.expanding ? "apart" : "together")},
+      {"duration", json_number(plan.duration)},
+      {"start", planned_each(fingers, [&](std::size_t k) { return json_number(plan.roll.s[k].front()); })},
+      {"length", planned_each(fingers, [&](std::size_t k) { return json_number(plan.length[k]); })},
+      {"rotation",
+       planned_each(fingers,
+                    [&](std::size_t k) { return json_number(rows_of(k).psi.back() - rows_of(k).psi.front()); })},
+      {"friction_needed", planned_each(fingers, [&](std::size_t k) { return json_number(plan.friction_needed[k]); })},
+      {"pose", Json::array({pose_json(plan, problem, false), pose_json(plan, problem, true)})},
+      {"margins", Json::array()},
+      {"unchecked", plan.unchecked}};
+  for (const PlanMargin& margin : plan.margins) document["margins"].push_back(margin_json(margin));
   return layout == Layout::lines ? json_text(document) : json_line(document);
 }
 
