@@ -11,7 +11,7 @@
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
 #include "watch/kept_samples.hpp"
-#include "watch/tracker_state.hpp"
+#include "watch/rolls.hpp"
 
 namespace rollfix {
 namespace {

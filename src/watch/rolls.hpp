@@ -3,8 +3,11 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "rollfix/log.hpp"
 #include "watch/meaning.hpp"
 
 namespace rollfix {
@@ -60,6 +63,21 @@ class Rolls {
   bool has_news_ = false;
   std::size_t explained_ = 0;  // as many samples there were when it was last looked for what is wrong
   std::vector<Tracked> told_;  // of the row that is pushed
+};
+
+/// Rolls, with a stream of one log or of two that makes rows of numbers and of lines.
+struct Tracker::State {
+  /// Throws InputError: as Tracker does.
+  State(const Followed& followed, MakeMeaning make);
+
+  std::vector<Tracked> take(const LogLine& row, LogKind kind);
+  /// The log of numbers. Throws InputError: there are two logs, whose rows are lines.
+  LogStream& numbers();
+
+  LogStream stream;
+  std::optional<PairedStream> two;  // in place of that
+  Rolls rolls;
+  std::vector<std::string> messages;
 };
 
 }  // namespace rollfix
