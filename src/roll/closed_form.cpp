@@ -1,9 +1,16 @@
-#include "roll/motion.hpp"
+#include "roll/closed_form.hpp"
 
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
-#include "roll/walk.hpp"
+#include "roll/motion.hpp"
+#include "rollfix/pulse.hpp"
 
 // Notation:
 //   s, Theta        contact on the part, and the tangent's angle there: `s`, `angle`
@@ -18,8 +25,10 @@
 // Idea: psi grows along the track, so that the contact at each time is found by solving psi(s) = rotation on one
 // stretch, by Newton's method, instead of by steps of a differential equation.
 namespace rollfix {
-
 namespace {
+
+// Rounding of a rotation: the last row of a roll that ends where the way ends is not beyond it.
+constexpr double kRotationRounding = 16 * std::numeric_limits<double>::epsilon();
 
 /// How far the finger has turned at each of the times: the integral of omega in eq. (3).
 std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
@@ -30,6 +39,47 @@ std::vector<double> rotations_of(const Motion& motion, const std::vector<double>
 }
 
 }  // namespace
+
+Walked Walk::to(double rotation) {
+  beat();
+  // Turned back at falls, the finger is behind by that much.
+  const double rounding = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
+  while (rotation + fallen_ > rotation_.hi + rounding) go(1);
+  while (rotation + fallen_ < rotation_.lo - rounding) go(-1);
+  return solve(std::min(std::max(rotation + fallen_, rotation_.lo), rotation_.hi));
+}
+
+void Walk::enter(std::int64_t index) {
+  index_ = index;
+  stretch_ = track_.stretch(index);
+  rotation_ = {track_.rotation(stretch_, stretch_.s.lo, stretch_.angle.lo),
+               track_.rotation(stretch_, stretch_.s.hi, stretch_.angle.hi)};
+}
+
+void Walk::go(int direction) {
+  const auto next = track_.next(index_, direction);
+  if (!next) track_.refuse(index_, direction);
+  fallen_ += track_.fall_between(index_, *next);
+  enter(*next);
+}
+
+Walked Walk::solve(double rotation) const {
+  if (stretch_.is_finger_pivot) return {stretch_.s.lo, stretch_.angle.lo, 0};
+  if (stretch_.is_pivot) return {stretch_.s.lo, stretch_.angle.lo + (rotation - rotation_.lo), 0};
+  const auto excess = [&](double s) {
+    const Turning turning = track_.turning(stretch_, s);
+    return std::pair(track_.rotation(stretch_, s, turning.angle) - rotation,
+                     track_.finger_curvature(stretch_, s) + turning.curvature);
+  };
+  const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
+  const double guess = stretch_.s.lo + share * stretch_.s.width();
+  constexpr int kDigits = std::numeric_limits<double>::digits;
+  std::uintmax_t iterations = 100;
+  const double s =
+      boost::math::tools::newton_raphson_iterate(excess, guess, stretch_.s.lo, stretch_.s.hi, kDigits, iterations);
+  const Turning turning = track_.turning(stretch_, s);
+  return {s, turning.angle, 1 / (track_.finger_curvature(stretch_, s) + turning.curvature)};
+}
 
 std::vector<RollState> states_of(const Track& track, const Motion& motion, const std::vector<double>& times) {
   const double s0 = motion.start.s;

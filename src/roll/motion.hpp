@@ -1,10 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
 #include "roll/track.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
 
 namespace rollfix {
@@ -44,5 +47,17 @@ std::vector<RollState> states_of(const Track& track, const Motion& motion, const
 using Solve = decltype(&states_of);
 Roll roll_with(Solve solve, const Part& part, const Finger& finger, const RollPlan& plan);
 Roll roll_with(Solve solve, const Part& part, const FreePlan& plan);
+
+inline constexpr std::array<const char*, 2> kFingerNames = {"finger a", "finger b"};
+
+/// Says which finger an error is about.
+template <class Action>
+void naming(const char* finger, const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", finger, error.what()));
+  }
+}
 
 }  // namespace rollfix

@@ -11,6 +11,13 @@
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
 
+// Notation, with a standard deviation for each kind of noise: Noise
+//   slip, dr        of a whole roll: a finger is rolled off by L / (1 + slip), and its radius is off by dr: RollError
+//   u, psi          each row's are off by `contact` / (length per u) and `angle`
+//   scale, bias, w  of a gyroscope: psi has (1 + scale) of its change, bias (t - t_0) and a random walk of variance
+//                   walk^2 per second more
+// Follows docs/rolling.md and docs/belief.md; the belief weighs the same errors, src/belief/error_model.cpp.
+// Idea: the true fingers roll in closed form, and what sensors would say of them is drawn afterwards, from a seed.
 namespace rollfix {
 
 namespace {

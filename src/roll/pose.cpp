@@ -10,6 +10,14 @@
 #include "rollfix/pulse.hpp"
 #include "rollfix/turning_function.hpp"
 
+// Notation, at a row:
+//   s               the contact on the part: start - (u - u_0), of a disk r times that: `place`
+//   u + psi         direction of the contact's normal, of a disk; phi + Theta(s) + pi / 2, phi being the part's heading
+//   [lo, hi]        phi where Theta is a pivot's or the finger's own normal a corner's: `heading`
+//   q               the contact in the world, the centre less its arm: `in_world`; the part's origin is q - R(phi) p(s)
+//   residual        how far the first contact, of two fingers both contacts, miss each other with these poses
+// Follows eqs. (1) to (3) of the paper, which leave the length r (u_0 - u), and docs/rolling.md. A part at rest has one
+// heading; two fingers tell it in every row, by the chord of their contacts where both of them pivot.
 namespace rollfix {
 
 namespace {

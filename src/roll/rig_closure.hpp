@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "roll/closed_form.hpp"
 #include "roll/track.hpp"
-#include "roll/walk.hpp"
 #include "rollfix/rolling.hpp"
 
 namespace rollfix {

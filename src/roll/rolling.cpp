@@ -11,10 +11,17 @@
 
 #include "log/wrapping.hpp"
 #include "roll/motion.hpp"
-#include "roll/naming.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
 
+// Notation:
+//   omega, omega_p  angular velocities of a finger and of the part; as the part sees it the finger turns by omega -
+//                   omega_p
+//   s, Theta        the contact on the part and the tangent's angle there, psi how far the finger has turned
+//   (X, phi)        the part's pose at a row; c: a finger's centre in its frame, X + R(phi) c in the world
+// Follows eqs. (1) and (2) of the paper: each finger is rolled as the part sees it, from its own plan, and what its
+// sensors say in the world follows from the part's poses. Of these a velocity is given of the part or of finger a's
+// centre.
 namespace rollfix {
 namespace {
 
