@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "plan/squeeze.hpp"
-#include "plan/stability.hpp"
 #include "rollfix/locate.hpp"
 
 // Notation:

@@ -12,7 +12,7 @@
 #include <numbers>
 
 // Notation:
-//   x, y               turns of the fingers against the part, with rates x', y'; c, p as in contact_way.hpp
+//   x, y               turns of the fingers against the part, with rates x', y'; c, p as in roll_path.hpp
 //   phi, X             the part's heading and where its frame's origin is
 //   w                  velocity of a finger's origin if X rested: J is a turn by a right angle,
 //                      w = phi' J R(phi) c + x' J R(phi) (c - p), since the finger turns about its contact

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "plan/contact_way.hpp"
 #include "plan/roll_path.hpp"
 
 namespace rollfix {

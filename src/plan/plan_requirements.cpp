@@ -1,12 +1,15 @@
 #include "plan/plan_requirements.hpp"
 
 #include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
+#include "log/mirrored.hpp"
 #include "rollfix/error.hpp"
 
+// What a plan can't be asked, and a problem as a mirror shows it. In a mirror x, angles and angular velocities have the
+// other sign, and what was turned one way turns the other; lengths along the outline as it was drawn, distances and
+// friction are what they were.
 namespace rollfix {
 namespace {
 
@@ -54,6 +57,18 @@ void require_goal(const PlanProblem& problem) {
   }
 }
 
+double opposite(double value) { return 0.0 - value; }  // no -0
+
+void mirror(Pose& pose) {
+  pose.x = opposite(pose.x);
+  pose.heading = opposite(pose.heading);
+}
+
+void mirror(PlanRates& rates) {
+  for (double& vx : rates.vx) vx = opposite(vx);
+  for (double& omega : rates.omega) omega = opposite(omega);
+}
+
 }  // namespace
 
 const char* name_of_finger(const PlanProblem& problem, std::size_t which) {
@@ -88,6 +103,33 @@ void require_valid(const PlanProblem& problem) {
   if (problem.part_rotation || problem.staying != Staying::middle) {
     throw InputError("one finger rolls on a part at rest: how that turns, or what stays, is of two fingers");
   }
+}
+
+PlanProblem in_mirror(const PlanProblem& problem) {
+  PlanProblem seen = problem;
+  seen.mirrored = false;
+  mirror(seen.pose);
+  if (seen.part_rotation) seen.part_rotation = opposite(*seen.part_rotation);
+  for (PlanFinger& finger : seen.fingers) {
+    finger.psi = mirrored_psi(&finger.finger, finger.psi);
+    if (finger.u) finger.u = mirrored_u(finger.finger, *finger.u);
+    finger.finger = mirrored(finger.finger);
+  }
+  return seen;
+}
+
+void out_of_mirror(const PlanProblem& seen, Plan& plan) {
+  for (std::size_t which = 0; which < plan.roll.log.fingers.size(); ++which) {
+    const Finger& finger = seen.fingers[which].finger;
+    FingerRows& rows = plan.roll.log.fingers[which];
+    for (double& u : rows.u) u = mirrored_u(finger, u);
+    for (double& psi : rows.psi) psi = mirrored_psi(&finger, psi);
+    for (double& x : rows.x) x = opposite(x);
+    mirror(plan.rates[which]);
+  }
+  mirror(plan.part_rates);
+  for (Pose& pose : plan.roll.pose) mirror(pose);
+  for (double& force : plan.force) force = std::remainder(std::numbers::pi - force, 2 * std::numbers::pi);
 }
 
 }  // namespace rollfix

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "finger/convex_body.hpp"
 
+// Notation as in squeeze.hpp. Between two instants, each contact going one way, a bound of the stability takes each
+// term's worst: curvatures are monotone on spirals, so that their ends and the joints between them are all that is
+// looked at.
 namespace rollfix {
 namespace {
 
@@ -41,6 +45,54 @@ double change_at_jaw(const ContactPlace& jaw, const ContactPlace& next_jaw, cons
   const double away =
       body.is_disk() ? (from.centre - jaw.point).norm() : (from.point - jaw.point).norm() + arm_of(body);
   return (away + along + by) * turn + along * std::min(1.0, turn) + by;
+}
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+void include(Interval& range, double value) {
+  range.lo = std::min(range.lo, value);
+  range.hi = std::max(range.hi, value);
+}
+
+/// What the curvature is between two places, ends and both sides of joints included; infinite above where there is a
+/// convex corner. On a spiral it is monotone, so that its values at the ends are all that is needed.
+Interval curvatures_between(const Part& part, double one, double other) {
+  const double rounding = kLengthAccuracy * part.perimeter();
+  const double lo = std::min(one, other) - rounding;
+  const double hi = std::max(one, other) + rounding;
+  const double P = part.perimeter();
+  const double first_lap = part.closed() ? std::floor(lo / P) : 0;
+  const double last_lap = part.closed() ? std::floor(hi / P) : 0;
+  Interval range{kInfinite, -kInfinite};
+  for (double lap = first_lap; lap <= last_lap; ++lap) {
+    for (const Spiral& spiral : part.turning().spirals()) {
+      const double from = std::max(lo - lap * P, spiral.lo);
+      const double to = std::min(hi - lap * P, spiral.hi);
+      if (from > to) continue;
+      include(range, part.turning().on_spiral(spiral, from).curvature);
+      include(range, part.turning().on_spiral(spiral, to).curvature);
+    }
+    for (const Corner& corner : part.corners()) {
+      const double at = corner.s + lap * P;
+      if (corner.turn >= kJointTurn && lo <= at && at <= hi) range.hi = kInfinite;
+    }
+  }
+  return range;
+}
+
+Interval finger_curvatures(const ContactWay& way, const ContactPlace& one, const ContactPlace& two) {
+  const Part* const outline = way.finger().outline();
+  if (outline != nullptr) return curvatures_between(*outline, one.contact.u, two.contact.u);
+  const double curvature = way.finger_curvature(one);
+  return {curvature, curvature};
+}
+
+double share_of(double bend, double distance, double radius) { return 1 / (1 + bend * (distance + radius)); }
+
+/// The least b: it falls with kappa.
+double least_bent(double kappa, const Interval& distance, double radius) {
+  if (std::isinf(kappa)) return -distance.hi / radius;
+  return (1 - kappa * (kappa > 0 ? distance.hi : distance.lo)) / (1 + radius * kappa);
 }
 
 }  // namespace
@@ -80,6 +132,32 @@ double gap_change(const Finger& finger_a, const ContactPlace& a, const ContactPl
 double size_of(const Finger& finger) {
   if (finger.is_disk()) return finger.disk()->radius;
   return finger.is_jaw() ? 0 : finger.outline()->perimeter() / (2 * std::numbers::pi);
+}
+
+double stability_of(const ContactWay& way_a, const ContactWay& way_b, const PairPlace& place) {
+  return stability_between(way_a, way_b, place, place);
+}
+
+double stability_between(const ContactWay& way_a, const ContactWay& way_b, const PairPlace& one, const PairPlace& two) {
+  const double r = way_b.finger().disk()->radius;
+  const auto distance_of = [](const PairPlace& place) { return (place.b.point - place.a.point).norm(); };
+  const double moved = std::abs(two.a.s - one.a.s) + std::abs(two.b.s - one.b.s);
+  const Interval distance{std::max({distance_of(one), distance_of(two)}) - moved,
+                          std::min({distance_of(one), distance_of(two)}) + moved};
+  if (distance.lo <= 0) return -kInfinite;
+  const auto across_of = [](const PairPlace& place) { return std::abs(std::cos(place.b.angle - place.a.angle)); };
+  const double across =
+      std::max(across_of(one), across_of(two)) - turn_between(one.a, two.a) - turn_between(one.b, two.b);
+  const Interval kappa_s = curvatures_between(way_a.part(), one.a.s, two.a.s);
+  const Interval of_a = finger_curvatures(way_a, one.a, two.a);
+  const double kappa_t = curvatures_between(way_b.part(), one.b.s, two.b.s).hi;
+  const double bent = least_bent(kappa_t, distance, r);
+  double least = kInfinite;
+  for (const double share : {share_of(kappa_s.hi + of_a.hi, distance.hi, r),
+                             share_of(std::max(0.0, kappa_s.lo + of_a.lo), distance.lo, r)}) {
+    least = std::min(least, share * across + (1 - share) * bent);
+  }
+  return least;
 }
 
 }  // namespace rollfix
