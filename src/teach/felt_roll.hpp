@@ -8,7 +8,6 @@
 #include "rollfix/teach.hpp"
 #include "teach/turning_course.hpp"
 #include "teach/turning_fit.hpp"
-#include "teach/turning_smooth.hpp"
 
 namespace rollfix {
 
@@ -75,5 +74,16 @@ TurningNodes fit_run(const FeltRoll& roll, const TurningRun& run, FitSums& sums)
 
 /// Theta over all runs, nothing closed. `sums` are of this alone.
 TurningCourse open_course(const FeltRoll& roll, const TurningRuns& runs, FitSums& sums);
+
+/// Theta over a lap whose turn is closed, the curvature continuous across the seam.
+struct RoundCourse {
+  TurningCourse course;
+  TurningRuns rows;  // without the drift
+  double drift = 0;  // of the turn, that was spread, radians
+};
+
+/// `turns`: whole ones that the lap is closed to; `turn_gap`: as much its turn is off them. Noisy rows tell the drift
+/// from the shape as well as they can, by least squares, given how large it can be. `sums` are of this alone.
+RoundCourse round_course(const FeltRoll& roll, const TurningRuns& lap, int turns, double turn_gap, FitSums& sums);
 
 }  // namespace rollfix

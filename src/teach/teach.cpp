@@ -13,9 +13,16 @@
 #include "rollfix/pulse.hpp"
 #include "teach/felt_roll.hpp"
 #include "teach/lap.hpp"
-#include "teach/round_course.hpp"
 #include "teach/teach_notes.hpp"
 
+// Notation:
+//   Theta(s), p(s)  the tangent's angle by length rolled and the path that it makes: TurningCourse, TurningPath
+//   lap, G, g       the roll's first time round, what its turn is off whole ones and the gap from its end to its start:
+//                   `lap_`, `turn_gap`, `gap`
+//   allowed         kDeviations standard deviations of what noise and drift make of G and of g, and what rounding and
+//                   the distance of exact rows do: `turn_allowed`, `gap_allowed`
+//   interpolated    how far every other row is off the curve through the rest, less a factor: `interpolated_`
+// Follows docs/teach.md. Both within what is allowed: the lap closes, and what is off is spread over it.
 namespace rollfix {
 
 namespace {

@@ -1,4 +1,4 @@
-#include "teach/turning_smooth.hpp"
+#include "teach/turning_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "rollfix/pulse.hpp"
-#include "teach/turning_fit.hpp"
 
 // Notation:
 //   (s_k, theta_k)  rows of a run, each off by the standard deviation `sd`: TurningRun, RowErrors
