@@ -7,7 +7,9 @@
 // Notation: Theta(s) is the tangent's angle, kappa = Theta' the curvature; of a reading with length L and turn theta
 //   f(s) = Theta(s + L) - Theta(s) - theta,  f'(s) = kappa(s + L) - kappa(s).
 // A cell is all s from one row to the next. What is claimed of it is proved by bounds on f or f' there, or of both
-// halves. Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/certificates.md, "How it is checked", step 3.
+// halves. What remains of it are the halves that no reading excludes: near, or a corner as narrow as one place; next to
+// each other they are one piece. Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/certificates.md, "How it
+// is checked", step 3.
 namespace rollfix_verify {
 namespace {
 
@@ -79,6 +81,28 @@ std::vector<Interval> common(const std::vector<Interval>& some, const std::vecto
     }
   }
   return result;
+}
+
+/// The rolls from a start between two others.
+Rows rows_between(const Boundary& boundary, const Readings& readings, const Place& from, const Place& to) {
+  const double period = boundary.perimeter().middle();
+  const double lo = from.s.middle();
+  const double hi = to.s.middle();
+  const bool is_fine = hi - lo < kFine * period;
+  for (const double share : kSplits) {
+    const double s = lo + share * (hi - lo);
+    if (!(Ball(s).is_above(from.s) && to.s.is_above(s))) continue;
+    if (is_fine && is_at_corner(boundary, s, contacts(readings), kClear * period)) continue;
+    const std::optional<Place> start = boundary.after(s);
+    if (!start) continue;
+    Rows rows;
+    for (const OneReading* reading : readings) {
+      const std::optional<Row> row = reading->row_at(*start);
+      if (row) rows.push_back(*row);
+    }
+    if (rows.size() == readings.size()) return rows;
+  }
+  refuse("it can't be halved near s = " + std::to_string(lo));
 }
 
 }  // namespace
@@ -169,32 +193,6 @@ std::vector<Ball> contacts(const Readings& readings) {
   return result;
 }
 
-namespace {
-
-/// The rolls from a start between two others.
-Rows rows_between(const Boundary& boundary, const Readings& readings, const Place& from, const Place& to) {
-  const double period = boundary.perimeter().middle();
-  const double lo = from.s.middle();
-  const double hi = to.s.middle();
-  const bool is_fine = hi - lo < kFine * period;
-  for (const double share : kSplits) {
-    const double s = lo + share * (hi - lo);
-    if (!(Ball(s).is_above(from.s) && to.s.is_above(s))) continue;
-    if (is_fine && is_at_corner(boundary, s, contacts(readings), kClear * period)) continue;
-    const std::optional<Place> start = boundary.after(s);
-    if (!start) continue;
-    Rows rows;
-    for (const OneReading* reading : readings) {
-      const std::optional<Row> row = reading->row_at(*start);
-      if (row) rows.push_back(*row);
-    }
-    if (rows.size() == readings.size()) return rows;
-  }
-  refuse("it can't be halved near s = " + std::to_string(lo));
-}
-
-}  // namespace
-
 void by_halves(const Boundary& boundary, const Readings& readings, const Rows& from, const Rows& to,
                const Settles& settles, int depth) {
   if (settles(from, to)) return;
@@ -221,6 +219,58 @@ bool fit_together(const Boundary& boundary, const Readings& readings, const std:
     left = common(left, tangents(around[k + 1], readings[k]->turn(), most));
   }
   return !left.empty();
+}
+
+std::size_t Remains::pieces(bool is_round) const {
+  return is_round && pieces_ > 1 && starts_open_ && is_open_ ? pieces_ - 1 : pieces_;
+}
+
+bool Remains::are_corners() const {
+  return std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.is_corner; });
+}
+
+bool Remains::hold(double s, double reach) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.starts.holds({s, s}, reach); });
+}
+
+Remains::Standing Remains::standing(const Rows& from, const Rows& to) const {
+  const double tolerance = document_.tolerance();
+  bool is_known = true;
+  bool is_near = true;
+  bool is_corner = false;
+  for (std::size_t k = 0; k < readings_.size(); ++k) {
+    const Range range = readings_[k]->range(from[k], to[k]);
+    is_known = is_known && range.known;
+    if (!range.known) continue;
+    if (range.misses(tolerance)) return Standing::excluded;
+    is_near = is_near && range.is_below(from[k], to[k], near_ * tolerance);
+    is_corner = is_corner || range.corner;
+  }
+  if (!is_known) return Standing::unknown;
+  if (is_near) return Standing::near;
+  const bool is_narrow = (to[0].start.s - from[0].start.s).is_below(kSamePlace * document_.period());
+  if (!is_corner || !is_narrow) return Standing::unknown;
+  std::vector<Segment> around = {{from[0].start, to[0].start}};
+  for (std::size_t k = 0; k < readings_.size(); ++k) around.push_back({from[k].end, to[k].end});
+  return fit_together(document_.boundary(), readings_, around, tolerance) ? Standing::corner : Standing::excluded;
+}
+
+void Remains::add(const Rows& from, const Rows& to) {
+  by_halves(document_.boundary(), readings_, from, to, [&](const Rows& lo, const Rows& hi) { return settles(lo, hi); });
+}
+
+bool Remains::settles(const Rows& from, const Rows& to) {
+  const Standing here = standing(from, to);
+  if (here == Standing::unknown) return false;
+  const bool remains = here != Standing::excluded;
+  if (is_first_) starts_open_ = remains;
+  is_first_ = false;
+  if (remains) {
+    if (!is_open_) ++pieces_;
+    parts_.push_back({{from[0].start.s.lower(), to[0].start.s.upper()}, here == Standing::corner});
+  }
+  is_open_ = remains;
+  return true;
 }
 
 }  // namespace rollfix_verify

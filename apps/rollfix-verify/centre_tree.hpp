@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -9,6 +10,12 @@
 #include "convex.hpp"
 
 namespace rollfix_verify {
+
+/// A full turn, radians, to a double's digits.
+inline const double kTurn = 2 * std::acos(-1.0);
+
+/// The angle that differs by whole turns and is nearest to 0.
+inline double nearest(double angle) { return std::remainder(angle, kTurn); }
 
 /// The tangent's angles that a finger is said to have at a corner, radians.
 struct CornerAngles {
@@ -76,5 +83,10 @@ class CentreTree {
   std::vector<Node> nodes_;
   int root_ = -1;
 };
+
+/// A contact by arc length at which a finger of this radius, infinity of a flat jaw, is not shown to enter the part,
+/// though it is not among those that are considered; nothing: at all of them some point of the boundary is inside of
+/// the finger.
+std::optional<double> not_out_of_reach(const Boundary& boundary, double radius, const Considered& considered);
 
 }  // namespace rollfix_verify

@@ -10,9 +10,8 @@
 #include "document.hpp"
 #include "held_document.hpp"
 #include "hold_search.hpp"
-#include "stated.hpp"
 
-// Notation as in hold_search.cpp and pin_look.cpp:
+// Notation as in hold_search.cpp:
 //   p(s), Theta(s)  the boundary; t, psi: where a wheel touches, and the tangent there, at a corner a pivot
 //   X + R(phi) p    the part at an instant: `Lie`
 // What a certificate of a hold claims, docs/certificates.md: each stated set has first contacts that fit, with the

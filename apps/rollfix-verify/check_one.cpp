@@ -7,7 +7,6 @@
 #include "cells.hpp"
 #include "check.hpp"
 #include "document.hpp"
-#include "remains.hpp"
 
 // Notation, as in docs/certificates.md:
 //   s               a start; a row is a start with the rolls of all readings from it: `rows_[k]`

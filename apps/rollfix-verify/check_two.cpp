@@ -9,7 +9,6 @@
 
 #include "budget.hpp"
 #include "check.hpp"
-#include "cover.hpp"
 #include "document.hpp"
 #include "pair_boxes.hpp"
 

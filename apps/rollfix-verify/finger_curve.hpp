@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "along.hpp"
+#include "boundary.hpp"
 
 namespace rollfix_verify {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "out_of_reach.hpp"
-#include "stated.hpp"
+#include "centre_tree.hpp"
+#include "document.hpp"
 
 namespace rollfix_verify {
 namespace {

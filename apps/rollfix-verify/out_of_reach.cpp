@@ -1,4 +1,4 @@
-#include "out_of_reach.hpp"
+#include "centre_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "angles.hpp"
 #include "budget.hpp"
+#include "centre_tree.hpp"
 #include "document.hpp"
 
 // Notation, of a pose X, phi that has the part's point c at X + R(phi) c in the world:

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "along.hpp"
+#include "boundary.hpp"
 #include "document.hpp"
 
 // Notation: Theta(s) is the tangent's angle; of a reading with length L and turn theta
