@@ -13,9 +13,8 @@
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
-#include "touch/all_contacts.hpp"
 #include "touch/measured.hpp"
-#include "touch/requirements.hpp"
+#include "touch/problem.hpp"
 #include "touch/roll_contacts.hpp"
 #include "weights.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "outline/turn.hpp"
 #include "roll_belief.hpp"
-#include "roll_poses.hpp"
+#include "roll_contacts.hpp"
 
 // Notation:
 //   (X, phi)        a pose; a contact's residuals in it are the distance of its centre from the path's c(u), and what

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "requirements.hpp"
+#include "problem.hpp"
 
 // Notation:
 //   p(t)         a place on a path along which nothing was felt; the same in the part's frame is R(-phi) (p - X)

@@ -6,12 +6,12 @@
 #include <numbers>
 #include <optional>
 
-#include "all_contacts.hpp"
 #include "centre_path.hpp"
 #include "free_space.hpp"
 #include "measured.hpp"
 #include "outline/turn.hpp"
 #include "pose_fit.hpp"
+#include "problem.hpp"
 
 // Notation:
 //   phi, X        heading and place of the part in the world; R = R(phi)

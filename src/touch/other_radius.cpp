@@ -7,11 +7,11 @@
 #include <cmath>
 #include <optional>
 
-#include "all_contacts.hpp"
 #include "cell_search.hpp"
 #include "centre_path.hpp"
 #include "outline/turn.hpp"
 #include "pose_fit.hpp"
+#include "problem.hpp"
 
 // Notation:
 //   r, dr          the finger's radius, and by how much it grows

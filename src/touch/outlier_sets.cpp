@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "all_contacts.hpp"
 #include "answer_poses.hpp"
 #include "belief/posterior.hpp"
 #include "measured.hpp"
 #include "pose_fit.hpp"
+#include "problem.hpp"
 #include "rollfix/touch.hpp"
 
 // Notation:

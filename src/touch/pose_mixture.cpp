@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "all_contacts.hpp"
 #include "answer_poses.hpp"
 #include "outline/turn.hpp"
 #include "pose_fit.hpp"
+#include "pose_sets.hpp"
 #include "posterior.hpp"
-#include "weighed_poses.hpp"
+#include "problem.hpp"
 
 // Notation:
 //   S, w(S)   a set of outliers and its weight, docs/touch.md, "Outliers": `outliers`, `log_weights_`

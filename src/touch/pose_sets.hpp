@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "all_contacts.hpp"
 #include "cell_search.hpp"
 #include "free_space.hpp"
 #include "pose_fit.hpp"
 #include "posterior.hpp"
+#include "problem.hpp"
 #include "rollfix/touch.hpp"
 
-// What hangs together, and the poses in it; from coarse cells to finer ones, for what a search straight to the finest
-// would not end of.
+// What hangs together, from coarse cells to finer ones, for what a search straight to the finest would not end of; and
+// the poses in it, without noise each with a witness, with noise by how probable they are.
 namespace rollfix::touch {
 
 /// What every step after the search for cells looks at.
@@ -69,5 +69,48 @@ std::vector<LevelSets> cut_sets(const Asked& asked, CellSearch& search, LevelCel
 
 /// Sets of all levels.
 CellSets together(std::vector<LevelSets> levels);
+
+/// Without noise: sets of poses that hold one that is known to fit, and what is left.
+struct WitnessedPoses {
+  std::vector<TouchPose> poses;  // by their headings
+  std::vector<Cell> without;     // of sets of which it is not known whether any of their poses fits
+  std::vector<Cell> undecided;   // where the budget ran out
+};
+
+/// Looks in every set of cells for a pose that fits all contacts. Sets without one are searched again, finer; they go
+/// where it is proved that none does.
+WitnessedPoses witnessed_poses(const Asked& asked, CellSearch& search, const std::vector<LevelSets>& levels);
+
+/// Whether what is known of the pose beforehand says where the part is.
+bool knows_place(const TouchProblem& problem);
+
+/// The posterior by one touch that has a place, or by several at one place without normals, and by what is known
+/// beforehand: the nodes of a group hang together. REQUIRES that it knows the place.
+std::vector<PosteriorNode> nodes_by_prior(const Asked& asked);
+
+/// The posterior as a list of poses.
+struct WeighedPoses {
+  std::vector<TouchPose> poses;        // the most probable first
+  std::optional<TouchFit> fit;         // of the one that fits best
+  std::size_t improbable = 0;          // sets that are not listed, ...
+  double rest = 0;                     // ... and their probability
+  std::optional<double> log_evidence;  // but for what rolls say of themselves, and contacts' own places
+  bool is_too_long = false;            // so many places that they were not weighed
+};
+
+// Sets of poses that are less probable are counted, not listed.
+inline constexpr double kLeastProbability = 1e-4;
+
+/// The most probable first; those that are as probable, as of a symmetric part, by their headings.
+void put_in_order(std::vector<TouchPose>& poses);
+
+/// The boundary's length as far as the finger gets to it, of a corner that of the finger's arc around it.
+double length_in_reach(const CentrePath& path);
+
+/// With noise: what is less probable than a bound is not looked at, and modes that end in one pose are one.
+WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget);
+
+/// By one touch and what is known of the pose beforehand.
+WeighedPoses weighed_by_prior(const Asked& asked);
 
 }  // namespace rollfix::touch

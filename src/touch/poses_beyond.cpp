@@ -8,16 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "all_contacts.hpp"
 #include "answer_poses.hpp"
 #include "outline/turn.hpp"
 #include "pose_sets.hpp"
-#include "requirements.hpp"
+#include "problem.hpp"
 #include "roll_contacts.hpp"
-#include "roll_poses.hpp"
 #include "rollfix/locate.hpp"
 #include "rollfix/touch.hpp"
-#include "witnessed_poses.hpp"
 
 // Notation:
 //   E_j             extents of the poses that an answer lists, intervals of x, y and the heading: `known`, PoseExtent

@@ -9,7 +9,6 @@
 
 #include "outline/turn.hpp"
 #include "roll_belief.hpp"
-#include "tilted_touch.hpp"
 
 // Notation:
 //   u_1             place of the first touch's contact, a node of the grid: `Held`, on columns of stretches, `Column`

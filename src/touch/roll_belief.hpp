@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "centre_path.hpp"
+#include "posterior.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/reading.hpp"
-#include "tilted_touch.hpp"
 
 namespace rollfix::touch {
 

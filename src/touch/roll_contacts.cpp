@@ -12,7 +12,7 @@
 #include "answer/observation.hpp"
 #include "answer/weighing.hpp"
 #include "outline/turn.hpp"
-#include "requirements.hpp"
+#include "problem.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/solve.hpp"
 

@@ -1,4 +1,4 @@
-#include "roll_poses.hpp"
+#include "roll_contacts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,18 +4,15 @@
 #include <optional>
 #include <utility>
 
-#include "all_contacts.hpp"
 #include "answer_poses.hpp"
 #include "mistakes.hpp"
 #include "outlier_sets.hpp"
 #include "pose_sets.hpp"
-#include "requirements.hpp"
-#include "roll_poses.hpp"
+#include "problem.hpp"
+#include "roll_contacts.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/touch.hpp"
-#include "weighed_poses.hpp"
-#include "witnessed_poses.hpp"
 
 // Every pose of the part that fits contacts which share it: cells of places of two of them, what hangs together of
 // these, and of each such set a pose that fits, or with noise its probability.

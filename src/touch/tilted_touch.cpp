@@ -1,4 +1,4 @@
-#include "tilted_touch.hpp"
+#include "posterior.hpp"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>

@@ -1,4 +1,4 @@
-#include "weighed_poses.hpp"
+#include "pose_sets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "answer_poses.hpp"
 #include "outline/turn.hpp"
-#include "tilted_touch.hpp"
+#include "posterior.hpp"
 
 // Notation, of one touch and what is known of the pose beforehand:
 //   q, t         the measured centre and the direction of the part's tangent there, with standard deviations sd, sd_t

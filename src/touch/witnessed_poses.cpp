@@ -1,4 +1,4 @@
-#include "witnessed_poses.hpp"
+#include "pose_sets.hpp"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>

@@ -7,9 +7,8 @@
 #include "answer/crew.hpp"
 #include "outline/turn.hpp"
 #include "profile.hpp"
-#include "touch/all_contacts.hpp"
 #include "touch/measured.hpp"
-#include "touch/requirements.hpp"
+#include "touch/problem.hpp"
 
 // Notation, as in docs/touch.md, "How it works":
 //   q_i, delta_i    a touch's measured centre, and how far it may be off: `Measured::at`, `place_most`

@@ -8,9 +8,15 @@
 #include "roll_contacts.hpp"
 #include "rollfix/touch.hpp"
 
-// A problem as the search takes it: all contacts alike, and of a part that lies face down what is seen in the mirror
-// x = -x, where it does not.
+// A problem as the search takes it: what of it is refused, all contacts alike, and of a part that lies face down what
+// is seen in the mirror x = -x, where it does not.
 namespace rollfix::touch {
+
+/// Throws InputError as `solve` says.
+void require_valid(const TouchProblem& problem);
+
+/// The finger's; 0 of a point. REQUIRES a valid problem.
+double radius_of(const TouchProblem& problem);
 
 /// All contacts of a problem as the search takes them, rolls first, with what they point to.
 struct AllContacts {
