@@ -1,4 +1,4 @@
-#include "answer_holds.hpp"
+#include "weigh_holds.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

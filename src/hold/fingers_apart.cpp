@@ -9,8 +9,8 @@
 
 #include "arc_tree.hpp"
 #include "finger/convex_body.hpp"
-#include "hold_facts.hpp"
 #include "part/turning_range.hpp"
+#include "problem.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "hold_facts.hpp"
+#include "problem.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part.hpp"
 

@@ -10,7 +10,6 @@
 #include "fingers_apart.hpp"
 #include "held_rows.hpp"
 #include "hold_fit.hpp"
-#include "hold_modes.hpp"
 #include "rollfix/hold.hpp"
 #include "weigh_holds.hpp"
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "held_question.hpp"
-#include "hold_facts.hpp"
 #include "mended_holds.hpp"
+#include "problem.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 

@@ -1,4 +1,4 @@
-#include "hold_modes.hpp"
+#include "weigh_holds.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "hold_facts.hpp"
 #include "outline/turn.hpp"
+#include "problem.hpp"
 #include "touch/mistakes.hpp"
 
 // Logs without rows that jump away, and problems as they would be without a mistake. Notation:

@@ -3,14 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "answer_holds.hpp"
 #include "fingers_apart.hpp"
 #include "held_question.hpp"
-#include "hold_facts.hpp"
 #include "hold_fit.hpp"
 #include "hold_mistakes.hpp"
 #include "mended_holds.hpp"
-#include "requirements.hpp"
+#include "problem.hpp"
 #include "rollfix/hold.hpp"
 #include "rollfix/pulse.hpp"
 #include "weigh_holds.hpp"

@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "answer_holds.hpp"
 #include "fingers_apart.hpp"
 #include "held_rows.hpp"
 #include "hold_fit.hpp"

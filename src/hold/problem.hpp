@@ -5,6 +5,8 @@
 
 #include "rollfix/hold.hpp"
 
+// A problem as all steps look at it: its logs by number, what of it is refused, and a part that lies face down as a
+// mirror shows it.
 namespace rollfix::hold {
 
 /// The finger of a log: one may hold for all.
@@ -25,5 +27,16 @@ HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number)
 HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs);
 /// Its answer in the world as it is.
 void out_of_mirror(HoldAnswer& answer);
+
+/// Throws InputError unless the problem can be asked.
+void require_valid(const HoldProblem& problem);
+
+/// Throws InputError where angles may be wrapped or not. `logs`: of fingers and wheels, as they are measured.
+void require_clear(const HoldProblem& problem, const std::vector<Log>& logs);
+
+/// Wheels have x and y, and so do the fingers beside them: whether they are in one another does not depend on the part.
+/// `logs`: aligned; of the fingers, then of the wheels. Throws InputError: in some row a finger and a wheel, or two
+/// wheels, enter each other farther than they can be off.
+void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& logs);
 
 }  // namespace rollfix::hold
