@@ -62,12 +62,12 @@ Problem problem_on(const Part& part, const Knowledge& knowledge, double s, std::
     plan.start = s;
     plan.distance = kRolled * P;
     plan.rows = kRows;
-    problem.felt.log = noisy_roll(part, problem.fingers[0], plan, *problem.noise, seed).log;
+    problem.measured.log = noisy_roll(part, problem.fingers[0], plan, *problem.noise, seed).log;
     return problem;
   }
   for (std::size_t k = 1; k <= kReadings; ++k) {
     const double length = kRolled * P * static_cast<double>(k) / kReadings;
-    problem.felt.readings.emplace_back(length, part.turning().angle(s + length) - part.turning().angle(s));
+    problem.measured.readings.emplace_back(length, part.turning().angle(s + length) - part.turning().angle(s));
   }
   problem.tolerance = knowledge.tolerance;
   return problem;

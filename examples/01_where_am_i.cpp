@@ -27,6 +27,6 @@ int main() {
   problem.tolerance = 0.02 * kDegree;  // how well the turns are known
   show(solve(problem));
 
-  problem.felt = std::vector{first, second};
+  problem.measured = std::vector{first, second};
   show(solve(problem));
 }

@@ -97,7 +97,7 @@ TEST_F(AdviseCatalog, has_nothing_to_say_of_one_part_or_none) {
 }
 
 TEST_F(AdviseCatalog, is_a_command) {
-  const Reading reading = short_roll().felt.readings.front();
+  const Reading reading = short_roll().measured.readings.front();
   const std::string roll = " --reading 0.5," + std::to_string(reading.turn) + " --tolerance 1e-4";
   const cli::Ran text = run("advise --catalog parts.db" + roll);
   EXPECT_THAT(text.out, HasSubstr("parts: roll on"));

@@ -82,7 +82,7 @@ TEST(BeliefClosedForms, a_disk_that_pivots_tells_its_radius_by_the_circle_that_i
   Noise noise = noise_of(1e-4, 1e-4, 0.005);
   noise.radius = 0.05;
   Problem problem{shapes::unit_square(), rollfix::Log{}, {rollfix::disk(radius)}, noise};
-  const std::vector<Vec2> arms = pivot(radius, 40, *problem.felt.log);
+  const std::vector<Vec2> arms = pivot(radius, 40, *problem.measured.log);
   Vec2 mean(0, 0);
   for (const Vec2& arm : arms) mean += arm / static_cast<double>(arms.size());
   double information = std::pow(radius / noise.radius, 2);  // on the share that the radius is off by
@@ -93,7 +93,7 @@ TEST(BeliefClosedForms, a_disk_that_pivots_tells_its_radius_by_the_circle_that_i
 
 TEST(BeliefClosedForms, a_first_contact_on_a_jaw_that_is_off_does_not_move_the_part) {
   Problem problem = roll_on(Part(rollfix::gallery("cam")), rollfix::jaw(), 2, 60, noise_of(0.01, 1e-4, 1e-4));
-  problem.felt.log->fingers[0].u.front() += 0.02;
+  problem.measured.log->fingers[0].u.front() += 0.02;
   const rollfix::PoseSpread pose = *rollfix::solve(problem).placements.at(0).pose_spread;
   const double sd = std::sqrt(pose.covariance(0, 0) + pose.covariance(1, 1));
   EXPECT_LT(sd, 0.002);

@@ -210,7 +210,7 @@ TEST(PoseSpread, holds_the_true_pose_as_often_as_it_should) {
     const Mode* mode = mode_at(belief.modes(), start, part);
     ASSERT_NE(mode, nullptr);
     const auto index = static_cast<std::size_t>(mode - belief.modes().data());
-    const rollfix::PoseSpread spread = belief.pose_spread(index, rollfix::FeltContact{where, towards, 1 / radius});
+    const rollfix::PoseSpread spread = belief.pose_spread(index, rollfix::MeasuredContact{where, towards, 1 / radius});
     // The part was simulated with its frame as the world's. Two errors make all three: the covariance is singular.
     const Eigen::Array3d off(spread.mean.x, spread.mean.y, std::remainder(spread.mean.heading, 2 * M_PI));
     within += (off.abs() < 1.96 * spread.covariance.diagonal().array().sqrt()).cast<int>().matrix();
@@ -228,7 +228,7 @@ TEST(PoseSpread, of_a_disk_whose_orientation_is_off_at_first_is_the_arc_that_its
   Belief belief = belief_in(part, log, radius, options);
   const rollfix::Vec2 point = part.point(1);
   const double tangent = part.turning().angle(1);
-  const rollfix::FeltContact felt{point, tangent + M_PI / 2, 1 / radius};
+  const rollfix::MeasuredContact felt{point, tangent + M_PI / 2, 1 / radius};
   const Eigen::Matrix3d covariance = belief.pose_spread(0, felt).covariance;
   // How the part's point of contact goes along the tangent with x, y and the heading.
   const Eigen::Vector3d by_pose(std::cos(tangent), std::sin(tangent),

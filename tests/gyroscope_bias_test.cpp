@@ -50,7 +50,7 @@ Problem by_few_long_rows() {
 
 /// As a clock shows it.
 Problem later(Problem problem, double seconds) {
-  for (double& time : problem.felt.log->time) time += seconds;
+  for (double& time : problem.measured.log->time) time += seconds;
   return problem;
 }
 

@@ -38,7 +38,7 @@ class Bounds : public testing::Test {
     for (int row = 1; row <= rows; ++row) lengths.push_back(0.6 * P * row / rows);
     Problem problem{part, roll_on(part, s, lengths)};
     problem.noise = Noise{share.contact * P, share.angle};
-    for (Reading& reading : problem.felt.readings) {
+    for (Reading& reading : problem.measured.readings) {
       reading.length[0] += problem.noise->contact * normal(random_);
       reading.turn += problem.noise->angle * normal(random_);
     }
@@ -86,7 +86,7 @@ TEST_F(Bounds, lose_nothing_of_digits_that_were_rounded) {
     const Part part = any_part();
     const double s = uniform(0, part.perimeter());
     Problem problem{part, roll_on(part, s, lengths_from(part, s, 3))};
-    problem.felt.roundings.assign(3, {uniform(0, 0.01), uniform(0, 0.01)});
+    problem.measured.roundings.assign(3, {uniform(0, 0.01), uniform(0, 0.01)});
     expect_same(problem);
   }
 }
@@ -95,8 +95,8 @@ TEST_F(Bounds, lose_nothing_of_a_finger_that_starts_in_a_corner) {
   const Part square = catalog_.part(4);
   for (int k = 0; k < test_count(20); ++k) {
     Problem problem{square, roll_on(square, 0, {uniform(0.1, 5), uniform(0.1, 5)})};
-    problem.felt.readings[0].turn -= 0.3;  // the tangent pivots before the roll
-    problem.felt.readings[1].turn -= 0.3;
+    problem.measured.readings[0].turn -= 0.3;  // the tangent pivots before the roll
+    problem.measured.readings[1].turn -= 0.3;
     expect_same(problem);
   }
 }
@@ -216,7 +216,7 @@ TEST(Glance, loses_no_part_whose_roll_starts_just_before_a_corner) {
   plan.start = 0.99526 * P;
   plan.distance = 0.3 * P;
   plan.rows = 200;
-  problem.felt.log = noisy_roll(problem.part, problem.fingers[0], plan, *problem.noise, 18329657575484428161U).log;
+  problem.measured.log = noisy_roll(problem.part, problem.fingers[0], plan, *problem.noise, 18329657575484428161U).log;
   EXPECT_EQ(names_of(catalog, identify(catalog, problem)).front(), "naca,digits=7331");
 }
 

@@ -118,7 +118,7 @@ TEST_F(Identify, weighs_a_part_alike_in_any_unit) {
   for (const auto& readings : {roll_on(part, 1, {0.5, 1.1}), rolls_on(part, 1, 4, {{0.5, -0.3}, {1.1, -0.9}})}) {
     Problem problem{part, readings, {}, Noise{1e-3, 1e-3}};
     Problem tenths{in_tenths, readings, {}, Noise{1e-2, 1e-3}};
-    for (Reading& reading : tenths.felt.readings) {
+    for (Reading& reading : tenths.measured.readings) {
       for (double& length : reading.length) length *= 10;
     }
     const rollfix::PartWeight one = weight_of(0, solve(problem));
@@ -202,12 +202,12 @@ TEST_F(Identify, tells_parts_of_one_length_from_congruent_ones) {
 TEST_F(Identify, finds_a_part_that_lies_face_down_or_was_rolled_the_other_way) {
   const Part part = catalog_.part(2);
   Problem problem{part, roll_on(part, 2, {-0.4, -0.9, -1.3})};
-  for (Reading& reading : problem.felt.readings) reading.length[0] = -reading.length[0];
+  for (Reading& reading : problem.measured.readings) reading.length[0] = -reading.length[0];
   EXPECT_EQ(identify(catalog_, problem).verdict, "none");
   problem.either_way = true;
   EXPECT_NEAR(identify(catalog_, problem).parts[0].answer.placements[0].start[0], 2, 1e-9);
   Problem mirrored{part, roll_on(part, 2, {0.4, 0.9, 1.3})};
-  for (Reading& reading : mirrored.felt.readings) reading = Reading(-reading.length[0], -reading.turn);
+  for (Reading& reading : mirrored.measured.readings) reading = Reading(-reading.length[0], -reading.turn);
   mirrored.mirrored = true;
   EXPECT_NEAR(identify(catalog_, mirrored).parts[0].answer.placements[0].start[0], 2, 1e-9);
 }

@@ -202,7 +202,7 @@ TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
     // Fingers that touch at the same place would be in each other's way, and tell less than any pose.
     if (part.boundary().distance(drawn.start[0], drawn.start[1]) < 0.4) continue;
     Belief belief = belief_of(part, drawn, options);
-    rollfix::PerFinger<rollfix::FeltContact> felt = {rollfix::FeltContact{}, rollfix::FeltContact{}};
+    rollfix::PerFinger<rollfix::MeasuredContact> felt = {rollfix::MeasuredContact{}, rollfix::MeasuredContact{}};
     for (const std::size_t finger : {0U, 1U}) {
       const rollfix::FingerRows& rows = drawn.log.fingers[finger];
       const double radius = drawn.fingers[finger].radius;

@@ -116,7 +116,7 @@ Drawn drawn(const Part& part, const Noise& noise, Generator& generator) {
 Drawn written(const Part& part, int decimals, Generator& generator) {
   Drawn exact = drawn(part, Noise{}, generator);
   const double unit = std::pow(10, -decimals);
-  for (rollfix::FingerRows& rows : exact.problem.felt.log->fingers) {
+  for (rollfix::FingerRows& rows : exact.problem.measured.log->fingers) {
     for (double& u : rows.u) u = unit * std::round(u / unit);
     for (double& psi : rows.psi) psi = unit * std::round(psi / unit);
     rows.place_rounding = rows.angle_rounding = 0.5 * unit;

@@ -51,7 +51,7 @@ TEST(Solve, answers_exact_readings_as_the_search_does_for_one_finger_and_two) {
 }
 
 TEST(Solve, takes_the_tolerance_from_rounded_digits) {
-  rollfix::Felt felt(roll_of_one(1, 0.7));
+  rollfix::Measurement measured(roll_of_one(1, 0.7));
   felt.roundings = {{0.005, 0}};
   const Answer answer = solve({cam(), felt});
   EXPECT_EQ(answer.tolerance.source, Tolerance::Source::digits);
@@ -73,7 +73,7 @@ TEST(Solve, takes_the_sharpest_curvature_for_the_rounding_also_where_the_outline
   outline.curves.emplace_back(rollfix::Line({0, 1}, {0, r}));
   arc(0);
   arc(1);
-  rollfix::Felt felt(Reading(0.5, 0));
+  rollfix::Measurement measured(Reading(0.5, 0));
   felt.roundings = {{3 * piece * r, 0}};
   EXPECT_NEAR(solve({Part(outline), felt}).tolerance.value, 3 * piece, 1e-9);
 }

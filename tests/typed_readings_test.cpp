@@ -27,19 +27,19 @@ TEST(TypedReadings, of_four_digits_fit_where_they_were_measured) {
 }
 
 TEST(TypedReadings, fit_nowhere_where_their_numbers_are_taken_as_exact) {
-  const Felt exact{Reading(0.9977, 56.93 * kDegree), Reading(1.95, 131.2 * kDegree)};
+  const Measurement exact{Reading(0.9977, 56.93 * kDegree), Reading(1.95, 131.2 * kDegree)};
   EXPECT_EQ(solve({spline(), exact}).verdict.text(), "inconsistent");
 }
 
 TEST(TypedReadings, are_off_by_half_a_unit_of_their_last_decimal_each_in_its_own_unit) {
-  const Felt felt = typed({"1.5cm,0.25"}, "mm");
+  const Measurement measured = typed({"1.5cm,0.25"}, "mm");
   EXPECT_DOUBLE_EQ(felt.readings.front().length[0], 15);
   EXPECT_DOUBLE_EQ(felt.roundings.front().length, 0.05);
   EXPECT_DOUBLE_EQ(felt.roundings.front().turn, 0.005);
 }
 
 TEST(TypedReadings, of_two_fingers_have_both_lengths) {
-  const Felt felt = typed({"0.58,0.94,-0.725248"});
+  const Measurement measured = typed({"0.58,0.94,-0.725248"});
   EXPECT_EQ(felt.readings.front().fingers(), 2U);
   EXPECT_DOUBLE_EQ(felt.roundings.front().length, 2 * 5e-7);
 }

@@ -58,7 +58,7 @@ TEST(WeighedPlacement, moves_with_the_length_as_its_sensitivity_says) {
   const double step = 1e-3;
   Problem problem = reading_on(cam, 1, 0.7, Noise{1e-3, 1e-3});
   const Placement before = rollfix::solve(problem).placements.at(0);
-  problem.felt.readings[0].length[0] += step;
+  problem.measured.readings[0].length[0] += step;
   const Placement after = rollfix::solve(problem).placements.at(0);
   const double moved = (after.start[0] - before.start[0]) / step;
   EXPECT_NEAR(before.sensitivity.per_length[0][0][0], moved, 0.02 * std::abs(moved));
@@ -75,7 +75,7 @@ TEST(WeighedPlacement, of_a_disk_whose_orientation_is_off_in_each_row_is_moved_b
   const rollfix::Vec2 along(std::cos(placement.tangent[0]), std::sin(placement.tangent[0]));
   const Eigen::Vector3d by_pose(along.x(), along.y(), along.dot(rollfix::Vec2(-point.y(), point.x())));
   const Eigen::Matrix3d& covariance = placement.pose_spread->covariance;
-  const double arc = radius * angle / std::sqrt(static_cast<double>(problem.felt.log->rows()));
+  const double arc = radius * angle / std::sqrt(static_cast<double>(problem.measured.log->rows()));
   EXPECT_NEAR(std::sqrt(by_pose.dot(covariance * by_pose)), arc, 0.02 * arc);
 }
 
@@ -105,7 +105,7 @@ TEST(WeighedPlacement, of_two_fingers_is_placed_half_as_uncertainly_as_one_centr
 TEST(WeighedPlacement, is_turned_as_surely_where_the_first_contact_is_off) {
   const auto heading_sd = [](double off) {
     Problem problem = roll_of_two(Noise{0.01, 0.002});
-    problem.felt.log->fingers[0].u.front() += off / 0.2;
+    problem.measured.log->fingers[0].u.front() += off / 0.2;
     return std::sqrt(rollfix::solve(problem).placements.at(0).pose_spread->covariance(2, 2));
   };
   EXPECT_NEAR(heading_sd(0.02), heading_sd(0), 0.1 * heading_sd(0));

@@ -44,7 +44,7 @@ rollfix::Problem problem_of(const Question& question, const Part& part, double s
   rollfix::Problem problem{part, std::vector<rollfix::Reading>{}};
   for (std::size_t k = 1; k <= question.readings; ++k) {
     const double length = kShare * P * static_cast<double>(k) / static_cast<double>(question.readings);
-    problem.felt.readings.emplace_back(length, part.turning().angle(s + length) - part.turning().angle(s));
+    problem.measured.readings.emplace_back(length, part.turning().angle(s + length) - part.turning().angle(s));
   }
   if (question.readings > 0) {
     problem.tolerance = question.tolerance;
@@ -56,7 +56,7 @@ rollfix::Problem problem_of(const Question& question, const Part& part, double s
   plan.start = s;
   plan.distance = kShare * P;
   plan.rows = kRows;
-  problem.felt.log = rollfix::noisy_roll(part, problem.fingers[0], plan, *problem.noise, seed).log;
+  problem.measured.log = rollfix::noisy_roll(part, problem.fingers[0], plan, *problem.noise, seed).log;
   return problem;
 }
 

@@ -40,7 +40,7 @@ rollfix::Problem roll(const Part& part, double s, double length, const rollfix::
     const double exact = length * static_cast<double>(k) / kReadings;
     const double turn = part.turning().angle(s + exact) - part.turning().angle(s);
     const double travelled = exact + noise.contact * normal(random);
-    problem.felt.readings.emplace_back(travelled, turn + noise.angle * normal(random));
+    problem.measured.readings.emplace_back(travelled, turn + noise.angle * normal(random));
   }
   problem.noise = noise;
   return problem;

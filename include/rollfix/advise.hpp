@@ -138,7 +138,7 @@ struct NextRoll {
 Answer before_contact(const Part& part, const std::vector<Finger>& fingers, const std::optional<Noise>& noise = {},
                       bool may_overlap = false);
 
-/// How well what was felt for this answer tells turns and lengths apart.
+/// How well what was measured for this answer tells turns and lengths apart.
 AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel);
 /// Where each finger of an answer can touch the part.
 class ReachForAdvice {

@@ -209,7 +209,7 @@ struct Diagnosis {
 
 /// What a finger feels at an instant: where its contact is in the world, and where the part's inward normal points
 /// there, radians.
-struct FeltContact {
+struct MeasuredContact {
   Vec2 where = Vec2::Zero();
   double facing = 0;
   double finger_curvature = 0;
@@ -276,8 +276,8 @@ class Belief {
   Verdict verdict_on(const std::vector<Placement>& placements);
 
   /// The part's pose at the first contacts, given that they are one of a mode's: number `mode` of modes(). The errors
-  /// with which those contacts were felt add theirs; of two fingers, as far as the samples don't tell them.
-  PoseSpread pose_spread(std::size_t mode, const PerFinger<FeltContact>& felt);
+  /// with which those contacts were measured add theirs; of two fingers, as far as the samples don't tell them.
+  PoseSpread pose_spread(std::size_t mode, const PerFinger<MeasuredContact>& measured);
 
   /// The posterior of one finger in pieces that hold its mass, in no order. Empty before the first sample, of two
   /// fingers, and where the finger or its orientation is not known.

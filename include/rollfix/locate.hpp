@@ -100,7 +100,7 @@ struct Pivot {
   Interval end;    // Theta at the last one
 };
 
-/// How badly what the fingers felt fits a part in its poses, at worst.
+/// How badly what the fingers measured fits a part in its poses, at worst.
 struct PoseResidual {
   double length = 0;  // how far contacts in the world are from where the part has them
   double turn = 0;    // radians: how far the headings are apart that the contacts' normals ask for

@@ -181,7 +181,7 @@ inline constexpr double kMostRate = 10;         // of drift and walk, radians pe
 Noise noise_on(const Part& part, const Noise& sensors);
 
 /// Throws InputError: a log without times with a noise of `drift` or `walk`, which gather with time. `what`: the log's
-/// name, or what else was felt.
+/// name, or what else was measured.
 void require_times(const Noise& noise, bool has_times, const std::string& what);
 
 /// Throws InputError: a standard deviation that is not a finite number of at least 0.

@@ -163,8 +163,8 @@ struct ReckonedRow {
 /// Throws InputError: two fingers, u and psi without a disk.
 std::vector<ReckonedRow> dead_reckoned(const Log& log, const std::optional<Finger>& finger);
 
-/// The part's poses at some rows of a log, and how badly what was felt there fits the part's shape: without noise the
-/// residuals vanish for the true first contacts, and hardly ever for others. One entry per row.
+/// The part's poses at some rows of a log, and how badly what was measured there fits the part's shape: without noise
+/// the residuals vanish for the true first contacts, and hardly ever for others. One entry per row.
 struct Poses {
   std::vector<Pose> pose;             // headings are unwrapped; the one at the first contact is in (-pi, pi]
   std::vector<double> residual;       // length: how far the contacts in the world are from where the part has them

@@ -43,12 +43,12 @@
 // What is asked and what is answered, of one finger or two. Names are those of the JSON document.
 namespace rollfix {
 
-/// What the fingers felt: readings, or a log.
-struct Felt {
-  Felt(Log of_roll) : log(std::move(of_roll)) {}                        // NOLINT: a log is what was felt
-  Felt(Reading reading) : readings{std::move(reading)} {}               // NOLINT
-  Felt(std::vector<Reading> of_roll) : readings(std::move(of_roll)) {}  // NOLINT
-  Felt(std::initializer_list<Reading> of_roll) : readings(of_roll) {}
+/// What the fingers measured: readings, or a log.
+struct Measurement {
+  Measurement(Log of_roll) : log(std::move(of_roll)) {}                        // NOLINT: a log is a measurement
+  Measurement(Reading reading) : readings{std::move(reading)} {}               // NOLINT
+  Measurement(std::vector<Reading> of_roll) : readings(std::move(of_roll)) {}  // NOLINT
+  Measurement(std::initializer_list<Reading> of_roll) : readings(of_roll) {}
 
   std::vector<Reading> readings;  // each measured from the first contacts; or
   std::optional<Log> log;
@@ -61,12 +61,12 @@ struct Felt {
 /// "8mm,0.31": they know their digits, so that the answer has every place that fits what was rounded. All numbers of a
 /// reading count as rounded alike. `unit`: the part's, into which lengths with a unit are converted. Throws InputError:
 /// a text that is not such a reading, or a unit that can't be converted.
-Felt typed(const std::vector<std::string>& readings, const std::string& unit = {});
+Measurement typed(const std::vector<std::string>& readings, const std::string& unit = {});
 
 /// A roll on a part, and how to look at it.
 struct Problem {
   Part part;
-  Felt felt;
+  Measurement measured;
   std::vector<Finger> fingers{};  // none: not known; one serves both of two
   std::optional<Noise> noise{};   // none: exact but for rounded digits
 
@@ -77,7 +77,7 @@ struct Problem {
                                         // as well
   std::optional<Prior> prior{};         // with noise: about where finger a started
   std::optional<PosePrior> pose{};      // with noise: about how the part lay then
-  bool mirrored = false;                // the part lies face down: the fingers felt the outline's mirror image
+  bool mirrored = false;                // the part lies face down: the fingers measure the outline's mirror image
   bool either_way = false;   // lengths, of readings or of a log without u and psi, may count clockwise: both are tried
   bool robust = false;       // with noise: stray rows don't count, and rows that jump away are left out
   bool may_overlap = false;  // two fingers at different heights: disks that would overlap pass one another

@@ -159,11 +159,11 @@ class Diagnostician {
   }
 
   void try_slips_of_the_pen() {
-    for (const SlipOfThePen& slip : slips_of_the_pen(problem_.felt)) {
+    for (const SlipOfThePen& slip : slips_of_the_pen(problem_.measured)) {
       take(slip.cause, without(slip, problem_), slip.log_stretch, slip.left_of_roll);
     }
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
-    const bool of_contact = problem_.felt.is_log() && problem_.felt.log->kind == LogKind::contact;
+    const bool of_contact = problem_.measured.is_log() && problem_.measured.log->kind == LogKind::contact;
     const bool has_places = problem_.noise->position > 0 || problem_.pose;
     if (of_contact && has_places) take(Cause::both_clockwise, in_mirror(problem_));
   }
@@ -216,7 +216,7 @@ class Diagnostician {
   }
 
   void try_gyroscope() {
-    const bool is_of_log = problem_.felt.is_log() && problem_.felt.log->fingers.size() == 1;
+    const bool is_of_log = problem_.measured.is_log() && problem_.measured.log->fingers.size() == 1;
     if (!is_of_log || problem_.noise->gyro >= kUnsaidGyro) return;
     Problem scaled = problem_;
     scaled.noise->gyro = kUnsaidGyro;
@@ -227,7 +227,7 @@ class Diagnostician {
     diagnosis.gyro = kUnsaidGyro;
     diagnosis.turn_scale = fit.turn_scale;
     diagnosis.turn_scale_sd = fit.turn_scale_sd;
-    const bool is_of_psi = problem_.felt.log->kind == LogKind::contact;
+    const bool is_of_psi = problem_.measured.log->kind == LogKind::contact;
     add(std::move(diagnosis), *belief, 0, is_of_psi ? kOddsAgainstGyroOfPsi : kOddsAgainstGyro);
   }
 
@@ -263,7 +263,7 @@ class Diagnostician {
       const Fit& fit = belief->fit();
       if (left_of_roll < kShortRoll && fit.chi_square < kShareOfShort * fit.freedom) return;
       Diagnosis diagnosis = of(cause, belief->fit());
-      if (problem_.felt.is_log()) diagnosis.columns = columns_without(cause, *problem_.felt.log);
+      if (problem_.measured.is_log()) diagnosis.columns = columns_without(cause, *problem_.measured.log);
       add(std::move(diagnosis), *belief, log_stretch);
     } catch (const InputError&) {  // what no log can be explains nothing
     }

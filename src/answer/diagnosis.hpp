@@ -31,7 +31,7 @@ struct SlipOfThePen {
 };
 
 /// Those that what was felt may have.
-std::vector<SlipOfThePen> slips_of_the_pen(const Felt& felt);
+std::vector<SlipOfThePen> slips_of_the_pen(const Measurement& measured);
 
 /// The problem as it is without that mistake.
 Problem without(const SlipOfThePen& slip, const Problem& problem);

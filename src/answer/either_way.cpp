@@ -55,11 +55,11 @@ void mirror(Placement& placement) {
 Problem in_mirror(const Problem& problem) {
   Problem result = problem;
   for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
-  for (Reading& reading : result.felt.readings) reading = mirrored(reading);
+  for (Reading& reading : result.measured.readings) reading = mirrored(reading);
   if (result.facing) result.facing = -*result.facing;
   if (result.pose) result.pose->mean = mirrored(result.pose->mean);
-  if (!result.felt.is_log()) return result;
-  std::vector<FingerRows>& fingers = result.felt.log->fingers;
+  if (!result.measured.is_log()) return result;
+  std::vector<FingerRows>& fingers = result.measured.log->fingers;
   for (std::size_t which = 0; which < fingers.size(); ++which) {
     mirror(fingers[which], finger_of(problem.fingers, which));
   }
@@ -250,15 +250,15 @@ Answer either_weighed(Answer one, Answer other) {
 
 Problem counted_clockwise(const Problem& problem) {
   Problem result = problem;
-  for (Reading& reading : result.felt.readings) {
+  for (Reading& reading : result.measured.readings) {
     for (double& length : reading.length) length = -length;
   }
-  if (!result.felt.is_log()) return result;
-  if (result.felt.log->kind == LogKind::contact) {
-    throw InputError("`either_way`: " + result.felt.log->name +
+  if (!result.measured.is_log()) return result;
+  if (result.measured.log->kind == LogKind::contact) {
+    throw InputError("`either_way`: " + result.measured.log->name +
                      " has u and psi, which say themselves which way round it went: expected a log of lengths");
   }
-  for (FingerRows& rows : result.felt.log->fingers) {
+  for (FingerRows& rows : result.measured.log->fingers) {
     for (double& length : rows.length) length = -length;
   }
   return result;

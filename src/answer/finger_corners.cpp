@@ -139,8 +139,8 @@ std::size_t last_exact(const std::vector<bool>& on_corners, std::size_t row) {
 }  // namespace
 
 std::optional<LeadingRows> leading_rows(const Problem& problem) {
-  if (!problem.felt.is_log() || problem.fingers.empty()) return std::nullopt;
-  const Log& log = *problem.felt.log;
+  if (!problem.measured.is_log() || problem.fingers.empty()) return std::nullopt;
+  const Log& log = *problem.measured.log;
   const Noise noise = problem.noise.value_or(Noise{});
   const std::vector<bool> on_corners = rows_on_corners(log, problem.fingers, noise);
   if (on_corners.empty() || !on_corners.front()) return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<LeadingRows> leading_rows(const Problem& problem) {
 
 Problem without(const LeadingRows& leading, const Problem& problem) {
   Problem result = problem;
-  result.felt.log = from_row(*problem.felt.log, leading.count);
+  result.measured.log = from_row(*problem.measured.log, leading.count);
   if (result.prior) result.prior->s += leading.way.length[0];
   return result;
 }
@@ -214,7 +214,7 @@ void to_first_contacts(const Reading& way, const Part& part, const Noise& noise,
 }
 
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners) {
-  const Log& log = *problem.felt.log;
+  const Log& log = *problem.measured.log;
   std::vector<std::size_t> rows = rows_at(log, problem.at);
   if (problem.noise && !on_corners.empty() && last_exact(on_corners, log.rows() - 1) == 0) refuse_all(log, true);
   if (!problem.at.empty() || on_corners.empty()) return rows;

@@ -80,15 +80,15 @@ std::vector<double> times_of(const Log& log, const std::vector<std::size_t>& row
 Observation observe_readings(const Problem& problem) {
   if (!problem.at.empty()) throw InputError("`at` picks instants of a log: give a `log` as well");
   Observation observed;
-  observed.readings = problem.felt.readings;
+  observed.readings = problem.measured.readings;
   observed.facing = problem.facing;
-  observed.roundings = problem.felt.roundings;
+  observed.roundings = problem.measured.roundings;
   return observed;
 }
 
 Observation observe_log(const Problem& problem) {
   Observation observed;
-  const Log& log = *problem.felt.log;
+  const Log& log = *problem.measured.log;
   observed.lengths_reversed = problem.part.reversed() && log.kind != LogKind::contact;
   const Noise noise = problem.noise.value_or(Noise{});
   observed.readings = readings(log, problem.part, problem.fingers, problem.at, noise);
@@ -123,10 +123,10 @@ double Observation::length_error() const {
 }
 
 Observation observe(const Problem& problem) {
-  if (problem.felt.is_log() && problem.facing) {
+  if (problem.measured.is_log() && problem.facing) {
     throw InputError("`facing` goes with `reading`: a log of two fingers has it in u and psi");
   }
-  Observation observed = problem.felt.is_log() ? observe_log(problem) : observe_readings(problem);
+  Observation observed = problem.measured.is_log() ? observe_log(problem) : observe_readings(problem);
   if (!problem.noise) put_on_corners(problem.part, observed.length_error(), observed.readings);
   return observed;
 }

@@ -28,7 +28,7 @@ struct Observation {
 
 /// All that was felt: a log's rows, or the readings.
 inline const std::vector<Reading>& rows_felt(const Problem& problem, const Observation& observed) {
-  return problem.felt.is_log() ? observed.rolls : observed.readings;
+  return problem.measured.is_log() ? observed.rolls : observed.readings;
 }
 
 /// Throws InputError: facing, instants and logs that don't go together, and what `readings` of a log throws.

@@ -166,18 +166,18 @@ void mend(const SlipOfThePen& slip, Reading& reading) {
 
 }  // namespace
 
-std::vector<SlipOfThePen> slips_of_the_pen(const Felt& felt) {
-  if (!felt.is_log()) return slips_of_courses({});
-  return felt.log->kind == LogKind::contact ? slips_of_contacts(felt.log->fingers)
-                                            : slips_of_courses(felt.log->fingers);
+std::vector<SlipOfThePen> slips_of_the_pen(const Measurement& measured) {
+  if (!measured.is_log()) return slips_of_courses({});
+  return measured.log->kind == LogKind::contact ? slips_of_contacts(measured.log->fingers)
+                                                : slips_of_courses(measured.log->fingers);
 }
 
 Problem without(const SlipOfThePen& slip, const Problem& problem) {
   Problem mended = problem;
-  if (mended.felt.is_log()) {
-    for (FingerRows& rows : mended.felt.log->fingers) slip.mend(rows);
+  if (mended.measured.is_log()) {
+    for (FingerRows& rows : mended.measured.log->fingers) slip.mend(rows);
   } else {
-    for (Reading& reading : mended.felt.readings) mend(slip, reading);
+    for (Reading& reading : mended.measured.readings) mend(slip, reading);
   }
   return mended;
 }

@@ -147,12 +147,12 @@ Verdict verdict_of(const Answer& answer, bool fits_badly) {
 
 /// Where the part is in the world, where a log tells.
 void add_poses(const Problem& problem, Answer& answer) {
-  if (problem.fingers.empty() || !problem.felt.is_log()) return;
-  std::vector<std::size_t> rows(problem.felt.log->rows());
+  if (problem.fingers.empty() || !problem.measured.is_log()) return;
+  std::vector<std::size_t> rows(problem.measured.log->rows());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   for (Placement& placement : answer.placements) {
-    std::optional<Poses> poses = rollfix::poses(problem.part, problem.fingers, *problem.felt.log, placement.start, rows,
-                                                problem.noise.value_or(Noise{}));
+    std::optional<Poses> poses = rollfix::poses(problem.part, problem.fingers, *problem.measured.log, placement.start,
+                                                rows, problem.noise.value_or(Noise{}));
     if (!poses) continue;
     const auto largest = [](const std::vector<double>& values) {
       return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
@@ -165,7 +165,7 @@ void add_poses(const Problem& problem, Answer& answer) {
 /// Rows of a log that jump away are no part of the roll, however robust the weighing of the others is.
 Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) {
   Problem result = problem;
-  result.felt.log = without_strays(*problem.felt.log, problem.part, problem.fingers, *problem.noise, &strays);
+  result.measured.log = without_strays(*problem.measured.log, problem.part, problem.fingers, *problem.noise, &strays);
   return result;
 }
 
@@ -187,7 +187,7 @@ Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool e
   answer.corner_rows.last = !on_corners.empty() && on_corners.back();
   answer.tolerance = tolerance_of(problem, observed, belief);
   search(problem, leading, answer);
-  const bool all_rows_count = !belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty();
+  const bool all_rows_count = !belief && problem.measured.is_log() && !problem.tolerance && problem.at.empty();
   if (all_rows_count && leading.count == 0) search_all_rows(problem, observed, answer);
   bool fits_badly = belief && weigh(problem, observed, explains, *belief, answer);
   drop_impossible(problem, observed, answer);
@@ -207,14 +207,14 @@ Answer solve_roll(const Problem& problem, bool explains) {
   if (!leading) return solve_from_row(problem, {}, explains);
   Answer answer = solve_from_row(without(*leading, problem), *leading, explains);
   to_first_contacts(*leading, problem, answer);
-  answer.pose_time = problem.felt.log->time;
+  answer.pose_time = problem.measured.log->time;
   add_poses(problem, answer);
   return answer;
 }
 
 /// Of one way round. `explains`: what may be wrong is looked for where the rows fit badly.
 Answer solve_one_way(const Problem& problem, bool explains) {
-  if (!problem.robust || !problem.felt.is_log()) return solve_roll(problem, explains);
+  if (!problem.robust || !problem.measured.is_log()) return solve_roll(problem, explains);
   std::vector<std::size_t> strays;
   const Problem cleaned = without_jumps(problem, strays);
   Answer answer = solve_roll(cleaned, explains);
@@ -262,9 +262,9 @@ Reach reach_of(const Part& part, const Finger& finger) {
 Answer solve(const Problem& problem) {
   if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
   require_noise(problem);
-  if (problem.felt.is_log() && is_in_another_unit(*problem.felt.log, problem.part)) {
+  if (problem.measured.is_log() && is_in_another_unit(*problem.measured.log, problem.part)) {
     Problem converted = problem;
-    converted.felt.log = in_unit(*problem.felt.log, problem.part.unit(), problem.fingers);
+    converted.measured.log = in_unit(*problem.measured.log, problem.part.unit(), problem.fingers);
     return solve(converted);
   }
   if (problem.mirrored) {

@@ -94,7 +94,7 @@ class RowsCheck {
  public:
   RowsCheck(const Problem& problem, const Observation& observed, const Answer& answer)
       : part_(problem.part), observed_(observed), answer_(answer) {
-    for (const FingerRows& rows : problem.felt.log->fingers) {
+    for (const FingerRows& rows : problem.measured.log->fingers) {
       centre_rounding_ += rounding_of_column(rows.x) + rounding_of_column(rows.y);
     }
     is_open_ = ContactEquations{part_, answer.readings}.is_open();
@@ -196,7 +196,7 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
 
 std::vector<Diagnosis> diagnoses_of(const Problem& problem, const Observation& observed) {
   const double P = problem.part.perimeter();
-  if (const auto shown = noise_that_shows(*problem.felt.log, problem.fingers)) {
+  if (const auto shown = noise_that_shows(*problem.measured.log, problem.fingers)) {
     return diagnoses_with(problem, observed, *shown);
   }
   std::vector<Diagnosis> fine = diagnoses_with(problem, observed, {kFineContact * P, kFineAngle}, true);

@@ -32,19 +32,19 @@ constexpr std::size_t kRowsOfGlance = 96;
 constexpr double kMostDoubt = 30;
 
 /// What a finger felt at its first contact, where the log tells it.
-std::optional<FeltContact> first_felt(const Problem& problem, std::size_t which) {
-  if (problem.fingers.empty() || !problem.felt.is_log()) return std::nullopt;
-  const FingerRows& rows = problem.felt.log->fingers[which];
-  if (problem.felt.log->kind != LogKind::contact || rows.x.empty()) return std::nullopt;
+std::optional<MeasuredContact> first_felt(const Problem& problem, std::size_t which) {
+  if (problem.fingers.empty() || !problem.measured.is_log()) return std::nullopt;
+  const FingerRows& rows = problem.measured.log->fingers[which];
+  if (problem.measured.log->kind != LogKind::contact || rows.x.empty()) return std::nullopt;
   const Finger& finger = *finger_of(problem.fingers, which);
   const Contact first{rows.u.front(), rows.psi.front()};
   const Vec2 where = Vec2(rows.x.front(), rows.y.front()) - centre_of(finger, Vec2::Zero(), first);
-  return FeltContact{where, facing(finger, first), finger.curvature(first.u)};
+  return MeasuredContact{where, facing(finger, first), finger.curvature(first.u)};
 }
 
 void add_contacts(const Problem& problem, const Observation& observed, std::size_t row, bool has_centres,
                   Sample& sample) {
-  const std::vector<FingerRows>& fingers = problem.felt.log->fingers;
+  const std::vector<FingerRows>& fingers = problem.measured.log->fingers;
   sample.contact = PerFinger<Contact>::of(fingers.size());
   if (has_centres) sample.centre = PerFinger<Vec2>::of(fingers.size(), Vec2::Zero());
   for (std::size_t which = 0; which < fingers.size(); ++which) {
@@ -55,9 +55,9 @@ void add_contacts(const Problem& problem, const Observation& observed, std::size
 
 void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placement>& placements) {
   if (placements.empty()) return;
-  PerFinger<FeltContact> felt = PerFinger<FeltContact>::of(placements.front().start.size());
+  PerFinger<MeasuredContact> felt = PerFinger<MeasuredContact>::of(placements.front().start.size());
   for (std::size_t which = 0; which < felt.size(); ++which) {
-    const std::optional<FeltContact> first = first_felt(problem, which);
+    const std::optional<MeasuredContact> first = first_felt(problem, which);
     if (!first) return;
     felt[which] = *first;
   }
@@ -92,12 +92,12 @@ double probability_if(const Diagnosis& diagnosis, const Placement& placement, co
 /// were known badly. What is wrong if they do; nothing else: that they are as noisy as they are is no fault of the
 /// rows. One finger's.
 std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observation& observed) {
-  const bool has_centres = problem.felt.is_log() && observed.contacts && !problem.fingers.empty() &&
-                           problem.felt.log->fingers.size() == 1 && !problem.felt.log->fingers[0].x.empty();
+  const bool has_centres = problem.measured.is_log() && observed.contacts && !problem.fingers.empty() &&
+                           problem.measured.log->fingers.size() == 1 && !problem.measured.log->fingers[0].x.empty();
   if (!has_centres || problem.noise->position > 0 || problem.robust) return {};
   Problem looked_at = problem;
   looked_at.noise->position = kBadCentre * std::max({problem.noise->contact, kLeastCentre * problem.part.perimeter(),
-                                                     jitter_of_centres(*problem.felt.log)});
+                                                     jitter_of_centres(*problem.measured.log)});
   if (!believe(looked_at, observed, {0, kRowsOfGlance})->fit().is_bad()) return {};
   std::optional<Belief> belief = believe(looked_at, observed);
   std::vector<Diagnosis> found = diagnose(looked_at, observed, *belief);
@@ -108,7 +108,9 @@ std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observ
 
 }  // namespace
 
-LogKind kind_of(const Problem& problem) { return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled; }
+LogKind kind_of(const Problem& problem) {
+  return problem.measured.is_log() ? problem.measured.log->kind : LogKind::travelled;
+}
 
 const char* name_of(const PosePrior& pose) { return std::isinf(pose.place_sd) ? "heading" : "pose"; }
 
@@ -124,7 +126,7 @@ void require_noise(const Problem& problem) {
 double finger_curvature(const Problem& problem, std::size_t which, std::size_t row) {
   if (problem.fingers.empty()) return 0;
   // Where u is wrapped makes no difference to the curvature there.
-  const double u = kind_of(problem) == LogKind::contact ? problem.felt.log->fingers[which].u[row] : 0;
+  const double u = kind_of(problem) == LogKind::contact ? problem.measured.log->fingers[which].u[row] : 0;
   return finger_of(problem.fingers, which)->curvature(u);
 }
 
@@ -132,7 +134,8 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   if (!problem.noise) return std::nullopt;
   const std::size_t fingers = observed.readings.front().fingers();
   FingerGeometry contacts{PerFinger<double>::of(fingers), observed.facing, problem.fingers};
-  const bool has_centres = observed.contacts && problem.felt.log->fingers.front().x.size() == problem.felt.log->rows();
+  const bool has_centres =
+      observed.contacts && problem.measured.log->fingers.front().x.size() == problem.measured.log->rows();
   if (problem.noise->position > 0 && !has_centres) {
     throw InputError(
         "`noise`: position is of the fingers' centres, expected a log of u and psi with their columns x and y");
@@ -150,11 +153,11 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.nodes = supposed.nodes;
   options.by_rows = supposed.by_rows;
   options.within = supposed.within;
-  options.bare = !problem.felt.is_log();
+  options.bare = !problem.measured.is_log();
   if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
-    const char* const found = !problem.felt.is_log() ? "readings"
-                              : !observed.contacts   ? "one of lengths and turns"
-                                                     : "no finger";
+    const char* const found = !problem.measured.is_log() ? "readings"
+                              : !observed.contacts       ? "one of lengths and turns"
+                                                         : "no finger";
     throw InputError(
         fmt::format("`{}`: a finger tells how the part lies by u and psi, expected a log of them, found {}",
                     name_of(*problem.pose), found));
@@ -165,8 +168,8 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   }
   if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
   Belief belief(problem.part, kind_of(problem), options, contacts);
-  const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
-  require_times(*problem.noise, has_times, problem.felt.is_log() ? problem.felt.log->name : "`readings`");
+  const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();
+  require_times(*problem.noise, has_times, problem.measured.is_log() ? problem.measured.log->name : "`readings`");
   const std::vector<Reading>& readings = rows_felt(problem, observed);
   const std::size_t stride = std::max<std::size_t>(1, readings.size() / std::max<std::size_t>(1, supposed.rows));
   for (std::size_t k = 0; k < readings.size(); k += stride) {
@@ -174,7 +177,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     if (!observed.on_corners.empty() && observed.on_corners[k]) continue;
     Sample sample;
     sample.reading = readings[k];
-    if (has_times) sample.time = problem.felt.log->time[k];
+    if (has_times) sample.time = problem.measured.log->time[k];
     sample.finger_curvature = PerFinger<double>::of(fingers);
     for (std::size_t which = 0; which < fingers; ++which)
       sample.finger_curvature[which] = finger_curvature(problem, which, k);

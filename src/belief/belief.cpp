@@ -228,7 +228,7 @@ Verdict Belief::verdict_on(const std::vector<Mode>& modes) { return state_->verd
 
 Verdict Belief::verdict_on(const std::vector<Placement>& placements) { return state_->verdict_on(placements); }
 
-PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<FeltContact>& felt) {
+PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<MeasuredContact>& felt) {
   const std::vector<Piece> pieces = state_->posterior->pieces(mode, modes()[mode]);
   return pose_spread_of(state_->part, pieces, felt, state_->options.noise);
 }

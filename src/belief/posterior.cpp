@@ -14,7 +14,7 @@
 //   m               `kComponents`, of few innovations a quarter as many: `most`
 //   slow            c_0^2 + ... + c_(m-1)^2, less what all innovations are larger by: a chi-square of m degrees
 //   s, T            a contact's place on the part and the tangent's angle there: Piece, with its share of a mode
-//   q, beta         where a contact was felt in the world, and u + psi: FeltContact
+//   q, beta         where a contact was felt in the world, and u + psi: MeasuredContact
 //   (X, phi)        the part's pose: beta = phi + T + pi / 2, and q = X + R(phi) p(s); of two fingers the middle of
 //                   both
 //   chord           from one contact to the other: its direction tells phi as well
@@ -92,7 +92,7 @@ constexpr double kAngleStep = 1e-6;
 /// of two fingers the middle of what they say.
 /// `chord`: of two fingers, how much the direction from one contact to the other counts for the heading, the normals
 /// counting for the rest.
-Pose pose_with(const Part& part, const Piece& piece, const PerFinger<FeltContact>& felt, double chord) {
+Pose pose_with(const Part& part, const Piece& piece, const PerFinger<MeasuredContact>& felt, double chord) {
   const auto heading_by = [&](std::size_t finger) {
     return felt[finger].facing - 0.5 * std::numbers::pi - piece.tangent[finger];
   };
@@ -113,8 +113,8 @@ Pose pose_with(const Part& part, const Piece& piece, const PerFinger<FeltContact
 
 /// A contact that is felt this far along the finger from where it is, counter-clockwise, with the finger's orientation
 /// off by this angle.
-FeltContact moved(const FeltContact& contact, double along, double angle) {
-  FeltContact off = contact;
+MeasuredContact moved(const MeasuredContact& contact, double along, double angle) {
+  MeasuredContact off = contact;
   const double turn = along * contact.finger_curvature + angle;
   off.facing += turn;
   const Vec2 tangent(-std::sin(contact.facing), std::cos(contact.facing));
@@ -124,8 +124,8 @@ FeltContact moved(const FeltContact& contact, double along, double angle) {
 }
 
 /// Where the contacts were, as far as all the samples tell.
-PerFinger<FeltContact> told(const PerFinger<FeltContact>& felt, const Piece& piece) {
-  PerFinger<FeltContact> contacts = felt;
+PerFinger<MeasuredContact> told(const PerFinger<MeasuredContact>& felt, const Piece& piece) {
+  PerFinger<MeasuredContact> contacts = felt;
   if (felt.size() == 1) return contacts;
   for (std::size_t finger = 0; finger < felt.size(); ++finger) {
     contacts[finger] = moved(felt[finger], piece.slid[finger], 0);
@@ -139,7 +139,7 @@ Eigen::Vector3d off(const Pose& pose, const Pose& reference) {
 
 /// What the sensors' own errors add at one finger's first contact. The contact's moves it along the tangent and turns
 /// the normal, the orientation's turns it about the contact.
-Eigen::Matrix3d sensors_of_one(const FeltContact& felt, const Pose& mean, const Noise& noise) {
+Eigen::Matrix3d sensors_of_one(const MeasuredContact& felt, const Pose& mean, const Noise& noise) {
   const Vec2 arm = felt.where - Vec2(mean.x, mean.y);  // from the contact to the origin, turned back
   const Eigen::Vector3d by_turn(arm.y(), -arm.x(), 1);
   const Eigen::Vector3d along(-std::sin(felt.facing), std::cos(felt.facing), 0);  // counter-clockwise
@@ -176,11 +176,11 @@ struct PoseSlopes {
 
 /// As the centres are known, the direction from one contact to the other tells the heading, and so do the normals: each
 /// counts as much as it is sure.
-double chord_share(const PerFinger<FeltContact>& felt, const Noise& noise) {
+double chord_share(const PerFinger<MeasuredContact>& felt, const Noise& noise) {
   if (felt.size() == 1 || !(noise.position > 0)) return 0;
   const double by_normals = 0.5 * noise.angle * noise.angle;
   double across = 2 * noise.position * noise.position;
-  for (const FeltContact& contact : felt) {
+  for (const MeasuredContact& contact : felt) {
     const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
     across += square(radius * noise.angle);
   }
@@ -188,13 +188,13 @@ double chord_share(const PerFinger<FeltContact>& felt, const Noise& noise) {
   return by_normals / std::max(by_normals + by_chord, 1e-300);
 }
 
-PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<FeltContact>& felt, double chord) {
+PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<MeasuredContact>& felt, double chord) {
   const double step = kSlidStep * part.perimeter();
   const Pose reference = pose_with(part, at, told(felt, at), chord);
   PoseSlopes slopes;
   for (std::size_t finger = 0; finger < felt.size(); ++finger) {
     const auto column = static_cast<Eigen::Index>(finger);
-    PerFinger<FeltContact> contacts = told(felt, at);
+    PerFinger<MeasuredContact> contacts = told(felt, at);
     contacts[finger] = moved(felt[finger], at.slid[finger] + step, 0);
     slopes.by_slid.col(column) = off(pose_with(part, at, contacts, chord), reference) / step;
     contacts[finger] = moved(felt[finger], at.slid[finger], kAngleStep);
@@ -210,7 +210,7 @@ PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<Felt
 
 }  // namespace
 
-PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<FeltContact>& felt,
+PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<MeasuredContact>& felt,
                           const Noise& noise) {
   if (pieces.empty()) return {};
   if (pieces.front().pose) return spread_over(pieces);

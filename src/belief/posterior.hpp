@@ -263,7 +263,7 @@ void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t
                  Density& density);
 
 /// See Belief::pose_spread. `pieces`: of the mode.
-PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<FeltContact>& felt,
+PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<MeasuredContact>& felt,
                           const Noise& noise);
 
 }  // namespace rollfix::belief

@@ -126,9 +126,9 @@ std::vector<Glance> glances_at(const Catalog& catalog, const Problem& like, cons
 
 /// Whether a glance tells anything: not without noise, of two fingers, or with stray rows among them.
 bool can_glance(const Problem& like) {
-  const std::size_t fingers = like.felt.is_log()           ? like.felt.log->fingers.size()
-                              : like.felt.readings.empty() ? 1
-                                                           : like.felt.readings.front().fingers();
+  const std::size_t fingers = like.measured.is_log()           ? like.measured.log->fingers.size()
+                              : like.measured.readings.empty() ? 1
+                                                               : like.measured.readings.front().fingers();
   return like.noise && !like.robust && fingers == 1;
 }
 
@@ -266,7 +266,7 @@ std::vector<std::size_t> parts_of(const Catalog& catalog, const IdentifyOptions&
 Likeness likeness_of(const Problem& like) {
   Likeness likeness;
   const std::vector<Reading> rows =
-      like.felt.is_log() ? readings_as_given(*like.felt.log, like.fingers) : like.felt.readings;
+      like.measured.is_log() ? readings_as_given(*like.measured.log, like.fingers) : like.measured.readings;
   for (const Reading& reading : rows) {
     for (const double length : reading.length) likeness.roll = std::max(likeness.roll, std::abs(length));
   }
@@ -292,7 +292,7 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
   found.asked = parts.size();
   found.noise = like.noise;
   found.mirrored = like.mirrored;
-  found.samples = like.felt.is_log() ? like.felt.log->rows() : like.felt.readings.size();
+  found.samples = like.measured.is_log() ? like.measured.log->rows() : like.measured.readings.size();
   Survey survey(catalog, like, options);
   survey.look(parts, 1, found);
   if (found.counted) {

@@ -47,8 +47,8 @@ double half_unit(std::string_view field) {
   return rounding_of(field);
 }
 
-Rounding rounding_of(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
-                     const std::string& unit) {
+Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
+                         const std::string& unit) {
   double finest = 0;
   for (const std::string_view field : fields) {
     const double one = half_unit(field);
@@ -79,8 +79,8 @@ void require_fields(std::size_t count, bool of_two, const std::string& what) {
 
 }  // namespace
 
-Felt typed(const std::vector<std::string>& readings, const std::string& unit) {
-  Felt felt(std::vector<Reading>{});
+Measurement typed(const std::vector<std::string>& readings, const std::string& unit) {
+  Measurement measured(std::vector<Reading>{});
   const bool of_two = std::any_of(readings.begin(), readings.end(),
                                   [](const std::string& text) { return split(text, ',').size() == 3; });
   for (const std::string& text : readings) {
@@ -91,10 +91,10 @@ Felt typed(const std::vector<std::string>& readings, const std::string& unit) {
     for (std::size_t k = 0; k + 1 < fields.size(); ++k) lengths.push_back(written_length(fields[k], what));
     const auto length = [&](std::size_t k) { return in_unit(lengths[k], unit, what); };
     const double turn = written_angle(fields.back(), what);
-    felt.readings.push_back(of_two ? Reading(length(0), length(1), turn) : Reading(length(0), turn));
-    felt.roundings.push_back(rounding_of(fields, lengths, unit));
+    measured.readings.push_back(of_two ? Reading(length(0), length(1), turn) : Reading(length(0), turn));
+    measured.roundings.push_back(common_rounding(fields, lengths, unit));
   }
-  return felt;
+  return measured;
 }
 
 }  // namespace rollfix

@@ -20,24 +20,24 @@ void require_kind(const Question& question, QuestionKind kind, const char* expec
 }
 
 /// Readings, one log, or one of each of two fingers.
-Felt felt_of(const Measurements& measured) {
+Measurement roll_of(const Measurements& measured) {
   if (measured.rolls.size() == 2) return paired(measured.rolls[0], measured.rolls[1]);
-  Felt felt = measured.rolls.empty() ? Felt(measured.readings) : Felt(measured.rolls.front());
-  felt.roundings = measured.roundings;
-  return felt;
+  Measurement of_roll = measured.rolls.empty() ? Measurement(measured.readings) : Measurement(measured.rolls.front());
+  of_roll.roundings = measured.roundings;
+  return of_roll;
 }
 
 void require_direction(const Problem& problem, const Question& question) {
   if (question.direction.value_or(Direction::counterclockwise) == Direction::counterclockwise) return;
-  if (!problem.felt.is_log() || problem.felt.log->kind != LogKind::contact) return;
+  if (!problem.measured.is_log() || problem.measured.log->kind != LogKind::contact) return;
   throw InputError(fmt::format("`direction`: {} has u and psi, which say the direction themselves: leave it out",
-                               problem.felt.log->name));
+                               problem.measured.log->name));
 }
 
 void require_facing(const Problem& problem) {
   if (!problem.facing) return;
-  const Felt& felt = problem.felt;
-  const std::size_t fingers = felt.is_log() ? felt.log->fingers.size() : felt.readings.front().fingers();
+  const Measurement& measured = problem.measured;
+  const std::size_t fingers = measured.is_log() ? measured.log->fingers.size() : measured.readings.front().fingers();
   if (fingers != 2) throw InputError("`facing` compares two fingers: expected `reading` LA,LB,THETA with it");
 }
 
@@ -76,7 +76,7 @@ QuestionKind kind_of(const Question& question) {
 
 Problem roll_problem(const Question& question) {
   require_kind(question, QuestionKind::roll, "readings or one roll");
-  Problem problem{question.part, felt_of(question.measured), question.fingers};
+  Problem problem{question.part, roll_of(question.measured), question.fingers};
   question::hand_over(question, problem);
   require_direction(problem, question);
   require_facing(problem);

@@ -290,7 +290,7 @@ RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre c
   RollContact contact{solve(single), {}, {}, {}, {}, {}};
   const bool is_disk = problem.finger->is_disk();
   const double radius = is_disk ? problem.finger->disk()->radius : 0;
-  const Log& used = *single.felt.log;
+  const Log& used = *single.measured.log;
   contact.travelled = observe(single).rolls.back().length[0];
   contact.measured.has_place = centre == RollCentre::evidence;
   measure_first(used, *problem.finger, radius, contact.measured);
@@ -318,7 +318,7 @@ RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre c
 
 /// Without noise rows all along the roll are searched with, so that what one of them contradicts is gone.
 void add_instants(Problem& single) {
-  Log& log = *single.felt.log;
+  Log& log = *single.measured.log;
   if (log.time.empty()) {
     for (std::size_t k = 0; k < log.rows(); ++k) log.time.push_back(static_cast<double>(k));
   }
@@ -336,7 +336,7 @@ Problem alone(const TouchProblem& problem, const Log& log) {
   if (problem.rolls.size() + problem.touches.size() == 1) single.pose = problem.pose;
   single.robust = problem.robust;
   single.diagnose = false;
-  if (single.robust) single.felt.log = without_strays(log, problem.part, single.fingers, *problem.noise);
+  if (single.robust) single.measured.log = without_strays(log, problem.part, single.fingers, *problem.noise);
   if (!problem.noise && problem.rolls.size() + problem.touches.size() > 1) add_instants(single);
   return single;
 }

@@ -38,7 +38,7 @@ AnswerTable table_of(const Part& part, const std::vector<Reading>& readings, uns
   options.threads = threads;
   return solve_table(
       {part, Reading()}, readings.size(),
-      [&](std::size_t k, Problem& problem) { problem.felt.readings[0] = readings[k]; }, 1, options);
+      [&](std::size_t k, Problem& problem) { problem.measured.readings[0] = readings[k]; }, 1, options);
 }
 
 TEST(SolveMany, answers_as_solve_does_one_after_the_other) {
@@ -108,7 +108,7 @@ TEST(SolveMany, stops_when_it_is_told_to) {
   options.go_on = [&](std::size_t done) { return ++asked < 2 && done < readings.size(); };
   EXPECT_THROW(solve_table(
                    {part, Reading()}, readings.size(),
-                   [&](std::size_t k, Problem& problem) { problem.felt.readings[0] = readings[k]; }, 1, options),
+                   [&](std::size_t k, Problem& problem) { problem.measured.readings[0] = readings[k]; }, 1, options),
                InputError);
 }
 

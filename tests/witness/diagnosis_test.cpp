@@ -38,7 +38,7 @@ struct Case {
   PerFinger<double> start;
 
   double perimeter() const { return problem.part.perimeter(); }
-  std::vector<FingerRows>& rows() { return problem.felt.log->fingers; }
+  std::vector<FingerRows>& rows() { return problem.measured.log->fingers; }
   void say_radius(double times) {
     for (rollfix::Finger& finger : problem.fingers) finger = rollfix::disk(times * finger.disk()->radius);
   }

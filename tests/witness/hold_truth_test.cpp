@@ -53,15 +53,15 @@ TEST(HoldTruth, OfFourFingersWithCentresIsListed) { expect_truth_listed(4, true)
 TEST(HoldTruth, OfFiveFingersWithCentresIsListed) { expect_truth_listed(5, true); }
 
 /// What one finger says at a row, by the definitions alone.
-struct Felt {
+struct Measurement {
   double travelled = 0;
   double tangent = 0;
   Vec2 at = Vec2::Zero();
 };
 
-std::vector<Felt> felt_by(const Log& log, double radius, const std::vector<std::size_t>& used) {
+std::vector<Measurement> felt_by(const Log& log, double radius, const std::vector<std::size_t>& used) {
   const rollfix::FingerRows& rows = log.fingers.front();
-  std::vector<Felt> felt;
+  std::vector<Measurement> felt;
   for (const std::size_t k : used) {
     const double towards = rows.u[k] + rows.psi[k];  // from the centre to the contact
     felt.push_back({-radius * (rows.u[k] - rows.u[0]), towards - 0.5 * std::numbers::pi,
@@ -71,7 +71,7 @@ std::vector<Felt> felt_by(const Log& log, double radius, const std::vector<std::
 }
 
 /// The largest residual, as a share of the tolerance, with the poses that finger a alone asks for.
-double worst_of(const Part& part, const std::vector<std::vector<Felt>>& felt, const std::vector<double>& starts,
+double worst_of(const Part& part, const std::vector<std::vector<Measurement>>& felt, const std::vector<double>& starts,
                 const rollfix::TouchTolerance& tolerance) {
   double worst = 0;
   for (std::size_t t = 0; t < felt[0].size(); ++t) {
@@ -114,7 +114,7 @@ std::vector<std::vector<double>> scan(const HoldCase& one) {
   const double radius = one.problem.fingers.front().disk()->radius;
   const rollfix::Reach reach = rollfix::reach_of_disk(part, radius);
   const std::vector<Vec2> points = part.polyline(0, part.perimeter(), kPlaces);
-  std::vector<std::vector<Felt>> felt;
+  std::vector<std::vector<Measurement>> felt;
   for (const Log& log : one.problem.logs) felt.push_back(felt_by(log, radius, {0, 2}));
   std::vector<std::vector<double>> found;
   for (int k = 0; k < kPlaces; ++k) {
@@ -126,7 +126,7 @@ std::vector<std::vector<double>> scan(const HoldCase& one) {
     }
     bool fits = worst_of(part, felt, starts, *one.problem.tolerance) < 0.99;
     for (std::size_t i = 0; i < felt.size(); ++i) {
-      for (const Felt& at : felt[i]) fits = fits && reach.contains(starts[i] + at.travelled);
+      for (const Measurement& at : felt[i]) fits = fits && reach.contains(starts[i] + at.travelled);
     }
     if (fits) found.push_back(starts);
   }

@@ -43,7 +43,7 @@ Problem roll_of(const std::string& shape, std::uint64_t seed, double length_shar
 /// psi is off by so much as a function of how much of the roll is over.
 template <class Off>
 void turn_by(Problem& problem, Off off) {
-  std::vector<double>& psi = problem.felt.log->fingers[0].psi;
+  std::vector<double>& psi = problem.measured.log->fingers[0].psi;
   for (std::size_t k = 0; k < psi.size(); ++k) psi[k] += off(static_cast<double>(k) / static_cast<double>(psi.size()));
 }
 
@@ -267,8 +267,8 @@ TEST(Misfit, centres_that_are_no_evidence_may_be_as_noisy_as_they_are) {
   for (const std::string shape : {"cam", "limacon", "naca"}) {
     Problem problem = roll_of(shape, 1, 0.5, 200);
     std::normal_distribution<double> off(0, 0.01 * problem.part.perimeter());
-    for (double& x : problem.felt.log->fingers[0].x) x += off(random);
-    for (double& y : problem.felt.log->fingers[0].y) y += off(random);
+    for (double& x : problem.measured.log->fingers[0].x) x += off(random);
+    for (double& y : problem.measured.log->fingers[0].y) y += off(random);
     const Answer answer = solve(problem);
     EXPECT_FALSE(answer.verdict.fits_badly) << shape;
     EXPECT_TRUE(answer.diagnoses.empty()) << shape;

@@ -42,7 +42,7 @@ void expect_place_of_b(const Noise& noise, double sd_of_row) {
   const rollfix::Problem problem = grip(noise);
   const rollfix::Answer answer = rollfix::solve(problem);
   ASSERT_FALSE(answer.placements.empty());
-  const double sd = sd_of_row / std::sqrt(static_cast<double>(problem.felt.log->rows()));
+  const double sd = sd_of_row / std::sqrt(static_cast<double>(problem.measured.log->rows()));
   EXPECT_NEAR(answer.placements[0].start[1], 2.6, 4 * sd);
   EXPECT_NEAR(answer.placements[0].sd[1], sd, 0.03 * sd);
 }
@@ -70,8 +70,8 @@ TEST(PairClosedForms, a_heading_told_by_normals_and_by_the_line_between_both_con
   const Noise noise = noise_of(0.02, 0.01);
   rollfix::belief::Piece piece{{0.5, 2.5}, {0.0, kPi}};
   piece.share = 1;
-  const rollfix::PerFinger<rollfix::FeltContact> felt{rollfix::FeltContact{{0.5, 0}, kPi / 2},
-                                                      rollfix::FeltContact{{0.5, 1}, -kPi / 2}};
+  const rollfix::PerFinger<rollfix::MeasuredContact> felt{rollfix::MeasuredContact{{0.5, 0}, kPi / 2},
+                                                          rollfix::MeasuredContact{{0.5, 1}, -kPi / 2}};
   const double information = 1 / by_angles(noise.angle) + 1 / by_ends(noise.position, 1);
   const Eigen::Matrix3d covariance =
       rollfix::belief::pose_spread_of(shapes::unit_square(), {piece}, felt, noise).covariance;

@@ -20,7 +20,7 @@ class ManyReadings {
         sign_(clockwise ? -1 : 1) {}
 
   void make(std::size_t k, Problem& problem) const {
-    std::vector<Reading>& readings = problem.felt.readings;
+    std::vector<Reading>& readings = problem.measured.readings;
     readings.resize(readings_);
     const double* row = first_ + k * readings_ * numbers_;
     for (Reading& reading : readings) {
@@ -122,8 +122,8 @@ double seconds_of_rows(const PartHandle& handle, const Numbers& rows, bool as_ta
     ManyOptions options;
     options.threads = 1;
     solve_table(
-        {part, Reading()}, count, [&](std::size_t k, Problem& problem) { problem.felt.readings[0] = reading(k); }, 1,
-        options);
+        {part, Reading()}, count, [&](std::size_t k, Problem& problem) { problem.measured.readings[0] = reading(k); },
+        1, options);
   } else {
     for (std::size_t k = 0; k < count; ++k) solve({part, reading(k)});
   }

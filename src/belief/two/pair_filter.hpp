@@ -102,12 +102,12 @@ struct PairModel {
   std::array<const TiltedBoundary*, 2> boundary{};
   std::array<const FeltTurning*, 2> felt{};
   std::array<const FeltTurning*, 2>
-      slipping{};                      // the same where a place is off by what has slipped as well, or nullptr
-  const BoundaryPath* path = nullptr;  // where centres are looked at
-  double outlier_share = 0;            // of rows whose turn is anything
-  std::optional<Prior> prior;          // of finger a's first contact
-  std::optional<PosePrior> pose;       // of the part at the first contacts, ...
-  std::array<FeltContact, 2> first{};  // ... as they were felt
+      slipping{};                          // the same where a place is off by what has slipped as well, or nullptr
+  const BoundaryPath* path = nullptr;      // where centres are looked at
+  double outlier_share = 0;                // of rows whose turn is anything
+  std::optional<Prior> prior;              // of finger a's first contact
+  std::optional<PosePrior> pose;           // of the part at the first contacts, ...
+  std::array<MeasuredContact, 2> first{};  // ... as they were felt
   const Part* part = nullptr;
   Boundary places;
   Effort effort = Effort::whole;

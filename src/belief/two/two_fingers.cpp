@@ -263,7 +263,7 @@ class TwoFingersPosterior : public Posterior {
   std::optional<BoundaryPath> path_;  // where centres are evidence
   PairRows rows_;
   bool has_first_ = false;
-  std::array<FeltContact, 2> first_;  // as felt at the first contacts
+  std::array<MeasuredContact, 2> first_;  // as felt at the first contacts
   std::optional<PairCentres> first_centres_;
   std::unique_ptr<const Question> question_;  // of all rows so far, with its peaks; none: they were not looked for yet
   Peaks peaks_;

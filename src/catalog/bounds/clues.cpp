@@ -69,7 +69,7 @@ struct RowErrors {
 std::vector<RowErrors> errors_of(const Problem& problem, const std::vector<Reading>& rows, double perimeter) {
   BeliefOptions options;
   options.noise = *problem.noise;
-  options.bare = !problem.felt.is_log();
+  options.bare = !problem.measured.is_log();
   const LogKind kind = kind_of(problem);
   const belief::SensorErrors sensor(options, kind, perimeter);
   const std::size_t fingers = rows.front().fingers();
@@ -79,13 +79,13 @@ std::vector<RowErrors> errors_of(const Problem& problem, const std::vector<Readi
   Reading before = fingers == 1 ? Reading(0, 0) : Reading(0, 0, 0);
   double time = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
-    const double now = has_times ? problem.felt.log->time[k] - problem.felt.log->time[0] : 0;
+    const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();
+    const double now = has_times ? problem.measured.log->time[k] - problem.measured.log->time[0] : 0;
     RowErrors row;
     double longest_step = 0;
     double longest_slip = 0;
     for (std::size_t which = 0; which < fingers; ++which) {
-      const double curvature = finger_curvature(problem, which, problem.felt.is_log() ? k : 0);
+      const double curvature = finger_curvature(problem, which, problem.measured.is_log() ? k : 0);
       const double contact = kind == LogKind::contact ? square(curvature) * sensor.contact_variance : 0;
       row.own += sensor.angle_variance + contact;
       row.length = std::max(
@@ -132,7 +132,7 @@ Interval perimeters(const Catalog& catalog) {
 
 RollClues clues_with_noise(const Problem& problem, const Observation& observed, const Interval& range, double excess) {
   const double farthest = excess * kFarthest;
-  const std::vector<Reading>& rows = problem.felt.is_log() ? observed.rolls : observed.readings;
+  const std::vector<Reading>& rows = problem.measured.is_log() ? observed.rolls : observed.readings;
   RollClues roll;
   for (Clues* clues : {&roll.few, &roll.many}) clues->fingers = rows.front().fingers();
   if (problem.robust) return roll;  // any row may be a stray one
@@ -169,7 +169,7 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
 
 RollClues clues_without_noise(const Problem& problem, const Observation& observed) {
   // A log's rows all have to fit, unless only some were asked for.
-  const bool takes_all = problem.felt.is_log() && !problem.tolerance && problem.at.empty();
+  const bool takes_all = problem.measured.is_log() && !problem.tolerance && problem.at.empty();
   Rounding rounding;
   for (const Rounding& one : observed.roundings) {
     rounding = {std::max(rounding.length, one.length), std::max(rounding.turn, one.turn)};

@@ -22,7 +22,7 @@ Svg draw_roll(const SolutionFigure& asked, const Answer& answer) {
   figure.others = asked.others;
   figure.title = asked.title;
   const Problem problem = roll_problem(*asked.question);
-  std::optional<Log> log = problem.felt.log;
+  std::optional<Log> log = problem.measured.log;
   if (!answer.strays.empty()) log = without_strays(*log, problem.part, problem.fingers, *problem.noise);
   if (log && !answer.mirrored) figure.log = &*log;
   return draw_answer(figure);
