@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "draw/legend.hpp"
+#include "draw/labels.hpp"
 #include "draw_helpers.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"

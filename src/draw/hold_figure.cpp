@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "legend.hpp"
+#include "labels.hpp"
 #include "outline/box.hpp"
 #include "plot.hpp"
 #include "rollfix/error.hpp"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "labels.hpp"
-#include "legend.hpp"
 #include "outline/turn.hpp"
 #include "plot.hpp"
 #include "rollfix/error.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "legend.hpp"
+#include "labels.hpp"
 #include "outline/turn.hpp"
 #include "scene.hpp"
 #include "trace.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "legend.hpp"
+#include "labels.hpp"
 #include "outline/turn.hpp"
 
 // Notation:

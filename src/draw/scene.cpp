@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "legend.hpp"
+#include "labels.hpp"
 #include "plot.hpp"
 #include "rolls.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "labels.hpp"
-#include "legend.hpp"
 #include "plot.hpp"
 #include "rollfix/draw.hpp"
 #include "scene.hpp"

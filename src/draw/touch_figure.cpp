@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "legend.hpp"
+#include "labels.hpp"
 #include "outline/box.hpp"
 #include "outline/turn.hpp"
 #include "plot.hpp"

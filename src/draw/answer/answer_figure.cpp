@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "draw/answer/answer_plan.hpp"
-#include "draw/answer/placement_pen.hpp"
 #include "draw/labels.hpp"
-#include "draw/legend.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

@@ -1,4 +1,4 @@
-#include "draw/answer/placement_pen.hpp"
+#include "draw/answer/answer_plan.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 
 #include "draw/answer/answer_plan.hpp"
 #include "draw/answer/densities.hpp"
-#include "draw/legend.hpp"
+#include "draw/labels.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/log.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "draw/answer/placement_pen.hpp"
+#include "draw/answer/answer_plan.hpp"
 #include "draw/identify/parts_plan.hpp"
 #include "draw/labels.hpp"
 #include "draw/plot.hpp"

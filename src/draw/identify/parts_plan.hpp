@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/answer/answer_plan.hpp"
-#include "draw/legend.hpp"
+#include "draw/labels.hpp"
 #include "rollfix/draw.hpp"
 
 // What is decided about a figure of parts before it is drawn, and what is written in it.
