@@ -103,6 +103,12 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
+/// A paragraph in lines of at most so many characters, all but the first after as many blanks; a longer word has a line
+/// of its own.
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  return joined(words_of(text), width, indent, "\n" + std::string(indent, ' '));
+}
+
 /// A command's words, an option with its value one piece, and what a shell does next another.
 std::vector<std::string> pieces_of_command(std::string_view line) {
   std::vector<std::string> pieces;
@@ -140,12 +146,6 @@ std::size_t terminal_width() {
   winsize size = {};
   if (width == 0 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) width = size.ws_col;
   return width == 0 ? kUsualWidth : std::clamp(width, kLeastWidth, kMostWidth);
-}
-
-/// A paragraph in lines of at most so many characters, all but the first after as many blanks; a longer word has a line
-/// of its own.
-std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
-  return joined(words_of(text), width, indent, "\n" + std::string(indent, ' '));
 }
 
 /// A page's examples, in which what a shell reads begins with two blanks: such a line goes on after a backslash, and

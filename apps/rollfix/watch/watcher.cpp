@@ -58,6 +58,8 @@ FirstLine first_line(std::string_view line) {
   return {FirstLine::Kind::words};
 }
 
+}  // namespace
+
 /// The lines of two logs that grow, one of each finger, as the rows of one log of two fingers.
 class TwoLogs {
  public:
@@ -112,6 +114,8 @@ std::vector<LogLine> TwoLogs::restart(std::size_t which) {
   has_header_[which] = false;
   return stream_.restart(which);
 }
+
+namespace {
 
 using WorkClock = std::chrono::steady_clock;
 
