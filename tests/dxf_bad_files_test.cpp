@@ -113,7 +113,7 @@ TEST(CutDxf, anywhere) {
 TEST(CutDxf, behind_a_number) {
   const std::size_t at = kLine.find("0.5");
   EXPECT_EQ(message_of(kLine.substr(0, at + 4)),
-            "part.dxf:10: the file ends here, expected more up to 0 EOF: it has been cut short");
+            "part.dxf:10: the file ends here, expected a last line EOF: it has been cut short, export it again");
 }
 
 TEST(CutDxf, without_endsec) {
@@ -146,19 +146,18 @@ TEST(BadDxfNumber, group_code) {
 }
 
 TEST(BadDxfNumber, coordinate) {
-  EXPECT_EQ(message_with(kLine, "0.5", "0,5"), "part.dxf:10: '0,5' is not a number (group code 10)");
+  EXPECT_EQ(message_with(kLine, "0.5", "0,5"), "part.dxf:10: expected a number behind group code 10, found '0,5'");
   EXPECT_THAT(message_with(kLine, "0.5", ""), StartsWith("part.dxf:10: '' is not a number"));
   EXPECT_THAT(message_with(kLine, "0.5", "0x5"), StartsWith("part.dxf:10: '0x5' is not a number"));
   for (const std::string number : {"inf", "-inf", "nan", "1e76", "-1e300", "1e999"}) {
-    EXPECT_EQ(
-        message_with(kLine, "0.5", number),
-        "part.dxf:10: '" + number + "' (group code 10) is out of range, expected a finite number of at most 1e+75");
+    EXPECT_EQ(message_with(kLine, "0.5", number),
+              "part.dxf:10: expected a finite number of at most 1e+75 behind group code 10, found '" + number + "'");
   }
 }
 
 TEST(BadDxfNumber, flag) {
   EXPECT_EQ(message_with(file(light_polyline({{0, 0}, {1, 0}}, true)), " 70\n1\n", " 70\n1.5\n"),
-            "part.dxf:12: '1.5' is not a whole number (group code 70)");
+            "part.dxf:12: expected a whole number behind group code 70, found '1.5'");
 }
 
 TEST(BadDxfNumber, bulge) {

@@ -153,7 +153,7 @@ TEST(BadPoints, too_few_are_counted) {
   EXPECT_EQ(message_of(""), "part.csv: holds 0 different points, a closed outline needs at least 3");
   EXPECT_EQ(message_of("# nothing\n\n"), "part.csv: holds 0 different points, a closed outline needs at least 3");
   EXPECT_EQ(message_of("0 0\n1 0\n"),
-            "part.csv: holds 2 different points, a closed outline needs at least 3 (or is it open?)");
+            "part.csv: holds 2 different points, a closed outline needs at least 3; of an open one say so with `open`");
   EXPECT_EQ(message_of("0 0\n", kOpen), "part.csv: holds 1 different points, an open outline needs at least 2");
   EXPECT_THAT(message_of("0 0\n1 0\n0 0\n"), StartsWith("part.csv: holds 2 different points"));
 }
@@ -172,8 +172,9 @@ TEST(BadPoints, outline_without_size_is_refused) {
 }
 
 TEST(BadPoints, closed_outline_on_one_line_is_refused) {
-  EXPECT_EQ(message_of("0 0\n1 2\n2 4\n0.5 1\n"),
-            "part.csv: all 4 points lie on one line, a closed outline encloses an area (or is it open?)");
+  EXPECT_EQ(
+      message_of("0 0\n1 2\n2 4\n0.5 1\n"),
+      "part.csv: all 4 points lie on one line, a closed outline encloses an area; of an open one say so with `open`");
   EXPECT_THAT(message_of("0.1 0.3\n0.2 0.6\n0.7 2.1\n"), HasSubstr("lie on one line"));
   EXPECT_EQ(message_of("0 0\n1 2\n2 4.0000001\n0.5 1\n"), "no error");
 }

@@ -46,7 +46,7 @@ TEST(Units, what_is_no_length_is_none) {
 }
 
 TEST(Units, a_unit_needs_the_parts_with_the_cure) {
-  EXPECT_THAT(refusal_of([] { in("8mm", ""); }), AllOf(HasSubstr("does not say its unit"), HasSubstr("`unit` mm")));
+  EXPECT_THAT(refusal_of([] { in("8mm", ""); }), AllOf(HasSubstr("states no unit"), HasSubstr("`unit` mm")));
   EXPECT_THAT(refusal_of([] { in("8mm", "px"); }), AllOf(HasSubstr("'px'"), HasSubstr("`unit`")));
 }
 

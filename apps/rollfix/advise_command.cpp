@@ -208,7 +208,7 @@ Report advise_on_catalog(const AdviseArguments& arguments) {
 }
 
 /// Options that say something of a roll that was.
-void require_no_roll(const RollArguments& roll) {
+void require_nothing_rolled(const RollArguments& roll) {
   const auto refuse = [](bool given, const char* option) {
     if (given)
       throw InputError(fmt::format("{}: it is about a roll that was, and none is given: leave it out", option));
@@ -287,7 +287,7 @@ Report advise_report(const AdviseArguments& arguments) {
   require_figure_output(arguments.output, arguments.json);
   if (!arguments.catalog.empty()) return advise_on_catalog(arguments);
   Report report;
-  if (is_first) require_no_roll(roll);
+  if (is_first) require_nothing_rolled(roll);
   const Problem problem = is_first ? read_before_contact(roll, report.notes) : read_problem(roll, report.notes);
   std::optional<Interval> travel;
   if (!arguments.travel.empty()) travel = read_travel(arguments.travel, problem.part.unit());

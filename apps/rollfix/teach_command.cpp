@@ -52,7 +52,7 @@ TeachOptions options_of(const TeachArguments& arguments) {
   options.noise = read_noise(arguments.noise, arguments.unit);
   options.bridge = arguments.bridge;
   options.open = arguments.open;
-  if (!arguments.corner_angle.empty()) options.corner_angle = read_angle(arguments.corner_angle, "--corner-angle");
+  if (!arguments.corner_angle.empty()) options.corner_angle = written_angle(arguments.corner_angle, "--corner-angle");
   if (options.bridge && options.open)
     throw InputError("--bridge closes the part, --open keeps it open: give one of them");
   return options;

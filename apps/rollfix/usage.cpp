@@ -48,9 +48,14 @@ bool is_option(const std::string& argument) { return argument.size() > 1 && argu
 
 /// What other programs call an option of these; empty where none of them has such a name.
 std::string meant_by(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::array<std::array<const char*, 2>, 10> kOtherNames = {{{"--output", "-o"},
+  constexpr std::array<std::array<const char*, 2>, 15> kOtherNames = {{{"--output", "-o"},
                                                                        {"--out", "-o"},
                                                                        {"--outfile", "-o"},
+                                                                       {"--svg", "-o"},
+                                                                       {"--png", "-o"},
+                                                                       {"--pdf", "-o"},
+                                                                       {"--plot", "-o"},
+                                                                       {"--figure", "-o"},
                                                                        {"--measurement", "--reading"},
                                                                        {"--radius", "--finger"},
                                                                        {"--tol", "--tolerance"},

@@ -10,6 +10,7 @@
 // Numbers are written with as many digits as bring each bit back; what is not known is null.
 
 #include <string>
+#include <vector>
 
 #include "rollfix/advise.hpp"
 #include "rollfix/certify.hpp"
@@ -63,6 +64,10 @@ std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout 
 
 /// "rollfix/hold-certificate/1".
 std::string format_certificate(const HoldCertificate& certificate);
+
+/// What to know about how a roll was understood, a sentence each: rows on corners of a finger, a way round that can't
+/// be, lengths that changed their signs.
+std::vector<std::string> notes_of(const Answer& answer);
 
 /// What is wrong, and what to give instead, in plain English.
 std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);

@@ -167,15 +167,7 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
         notes = list(self.part.notes)
         if self._core.part.reversed:
             notes.append("the outline was given clockwise and is stored counter-clockwise (a hole the other way round)")
-        if self._core.other_way:
-            notes.append(f"the other way round no such roll can be: {self._core.other_way}")
-        if self._core.corner_rows:
-            notes.append(
-                f"{self._core.corner_rows} rows are on a corner of the finger, where u does not tell how its normal is "
-                "turned"
-            )
-        if self._core.lengths_reversed:
-            notes.append("the log's lengths changed their signs to match")
+        notes += self._core.notes
         if self._core.strays:
             notes.append(f"left out stray rows{self._strays()}")
         return (*map(in_python, notes), *self._why_empty())

@@ -50,14 +50,14 @@ void belief::require_weighable(const Noise& noise) {
   rollfix::require_valid(noise);
   if (noise.contact <= 0 && noise.angle <= 0) {
     throw InputError(
-        "noise: expected a standard deviation of the contact or of the angle above 0, found neither; without noise "
-        "there is nothing to be unsure of");
+        "noise: expected a standard deviation of the contact or of the angle above 0, found neither; give one of them "
+        "as well");
   }
   if (noise.angle > BeliefOptions::kMostAngle) {
     throw InputError(fmt::format(
         "noise: an angle's standard deviation of {} rad is {:.3g} deg, expected at most {} rad: beyond that a "
-        "row says nothing; degrees are written {}deg",
-        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle, noise.angle));
+        "row says nothing; a number without a unit is in radians, degrees are written as in 2deg",
+        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle));
   }
 }
 

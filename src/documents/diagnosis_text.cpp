@@ -212,16 +212,15 @@ std::string about(const Diagnosis& diagnosis) {
       constexpr double kExact = 5e-6;  // of the scale: what its digits don't show
       const std::string whose =
           diagnosis.finger ? fmt::format(" of finger {}", *diagnosis.finger == 0 ? 'a' : 'b') : "";
-      std::string scale =
-          fmt::format("all lengths{} are {:.5g} times what was measured", whose, diagnosis.length_scale);
-      if (diagnosis.length_scale_sd > kExact * diagnosis.length_scale) {
-        scale += fmt::format(", give or take {:.2g}", diagnosis.length_scale_sd);
-      }
+      const bool is_exact = !(diagnosis.length_scale_sd > kExact * diagnosis.length_scale);
+      const std::string scale =
+          fmt::format("all lengths{} are {:.5g}{} times what was measured", whose, diagnosis.length_scale,
+                      is_exact ? "" : fmt::format(" ± {:.2g}", diagnosis.length_scale_sd));
       if (diagnosis.finger) return scale + ": a wrong radius of that finger";
       return scale + (known.empty() ? ": a wrong radius of the finger, or a wrong unit" : ": " + known);
     }
     case Cause::gyroscope:
-      return fmt::format("all turns are {:.4f} +- {:.2g} times what was measured: a gyroscope's scale",
+      return fmt::format("all turns are {:.4f} ± {:.2g} times what was measured: a gyroscope's scale",
                          diagnosis.turn_scale, diagnosis.turn_scale_sd);
     case Cause::stray:
       return fmt::format("{} {} stray", counted(diagnosis.stray, "row", "rows"), diagnosis.stray == 1 ? "is" : "are");

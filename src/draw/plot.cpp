@@ -72,14 +72,14 @@ Interval value_range(const Part& part, const std::function<double(const Turning&
   return range;
 }
 
-constexpr double kWorldLeft = 58;  // around the frame, pixels
-constexpr double kWorldRight = 16;
-constexpr double kWorldAbove = 22;
-constexpr double kWorldBelow = 34;
-constexpr double kWorldLeastHeight = 160;
-constexpr double kWorldMostHeight = 720;
-constexpr double kWorldMargin = 0.06;       // of what is shown
-constexpr double kWorldLeastMargin = 1e-9;  // of the perimeter: a point has no size
+constexpr double kFrameLeft = 58;  // around the frame, pixels
+constexpr double kFrameRight = 16;
+constexpr double kFrameAbove = 22;
+constexpr double kFrameBelow = 34;
+constexpr double kFrameLeastHeight = 160;
+constexpr double kFrameMostHeight = 720;
+constexpr double kFrameMargin = 0.06;       // of what is shown
+constexpr double kFrameLeastMargin = 1e-9;  // of the perimeter: a point has no size
 
 }  // namespace
 
@@ -271,19 +271,19 @@ std::vector<Vec2> graph(const Part& part, const Axes& axes, const std::function<
 }
 
 World::World(const Box& seen, const Part& part, double width) {
-  const double margin = std::max(kWorldMargin * seen.sizes().maxCoeff(), kWorldLeastMargin * part.perimeter());
+  const double margin = std::max(kFrameMargin * seen.sizes().maxCoeff(), kFrameLeastMargin * part.perimeter());
   const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
-  const double across = width - kWorldLeft - kWorldRight;
-  const double height = std::clamp(across * wide.sizes().y() / wide.sizes().x(), kWorldLeastHeight, kWorldMostHeight);
+  const double across = width - kFrameLeft - kFrameRight;
+  const double height = std::clamp(across * wide.sizes().y() / wide.sizes().x(), kFrameLeastHeight, kFrameMostHeight);
   scale_ = std::min(across / wide.sizes().x(), height / wide.sizes().y());
   const Vec2 half = 0.5 * Vec2(across, height) / scale_;
-  axes_.corner = {kWorldLeft, kHeaderHeight + kWorldAbove};
+  axes_.corner = {kFrameLeft, kHeaderHeight + kFrameAbove};
   axes_.size = {across, height};
   axes_.x = {wide.center().x() - half.x(), wide.center().x() + half.x()};
   axes_.y = {wide.center().y() - half.y(), wide.center().y() + half.y()};
 }
 
-double World::bottom() const { return axes_.corner.y() + axes_.size.y() + kWorldBelow; }
+double World::bottom() const { return axes_.corner.y() + axes_.size.y() + kFrameBelow; }
 
 std::vector<Vec2> World::path(const std::vector<Vec2>& points) const {
   std::vector<Vec2> page;

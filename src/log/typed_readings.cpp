@@ -20,31 +20,10 @@ namespace rollfix {
 
 namespace {
 
-Length written_length(std::string_view text, const std::string& what) {
-  const std::string_view shown = trimmed(text);
-  const std::optional<Length> length = parse_length(shown);
-  if (!length) {
-    throw InputError(fmt::format("{}: '{}' is not a number, nor one with a unit of length as in 8mm ({}){}", what,
-                                 shown, unit_names(Dimension::length), decimal_comma_hint(shown)));
-  }
-  if (!std::isfinite(length->value)) throw InputError(fmt::format("{}: '{}' is not a finite number", what, shown));
-  return *length;
-}
-
-double written_angle(std::string_view text, const std::string& what) {
-  const std::string_view shown = trimmed(text);
-  const std::optional<double> angle = parse_angle(shown);
-  if (!angle || !std::isfinite(*angle)) {
-    throw InputError(fmt::format("{}: '{}' is not an angle, expected finite radians, or degrees as in 73deg{}", what,
-                                 shown, decimal_comma_hint(shown)));
-  }
-  return *angle;
-}
-
 /// In the field's own unit.
 double half_unit(std::string_view field) {
   take_degrees(field);
-  return rounding_of(field);
+  return rollfix::rounding_of(field);
 }
 
 Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,

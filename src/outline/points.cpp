@@ -144,7 +144,7 @@ void require_enough(const NumberedPoints& data, const std::string& name, const O
   const std::size_t needed = options.open ? 2 : 3;
   if (count >= needed) return;
   const std::string kind = options.open ? "an open" : "a closed";
-  const std::string cure = !options.open && count == 2 ? " (or is it open?)" : "";
+  const std::string cure = !options.open && count == 2 ? "; of an open one say so with `open`" : "";
   throw InputError(
       fmt::format("{}: holds {} different points, {} outline needs at least {}{}", name, count, kind, needed, cure));
 }
@@ -174,8 +174,9 @@ void refuse_flat(const std::vector<Vec2>& points, double size, const std::string
   const double limit = kFlat * size * reach.norm();
   const auto is_on_line = [&](const Vec2& point) { return std::abs(cross(reach, point - first)) <= limit; };
   if (!std::all_of(points.begin(), points.end(), is_on_line)) return;
-  throw InputError(fmt::format("{}: all {} points lie on one line, a closed outline encloses an area (or is it open?)",
-                               name, points.size()));
+  throw InputError(fmt::format(
+      "{}: all {} points lie on one line, a closed outline encloses an area; of an open one say so with `open`", name,
+      points.size()));
 }
 
 /// Brings points whose header states a unit to the one that is wanted; without it they are taken to be in that.

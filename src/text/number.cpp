@@ -255,10 +255,10 @@ std::optional<Length> parse_length(std::string_view text) {
 double in_unit(const Length& length, std::string_view part_unit, const std::string& what) {
   if (length.unit.empty() || length.unit == part_unit) return length.value;
   if (part_unit.empty()) {
-    throw InputError(
-        fmt::format("{}: a length in {} for a part whose file does not say its unit; state that with `unit`, such as "
-                    "`unit` {}, or leave the {} out where the part is in the same",
-                    what, length.unit, length.unit, length.unit));
+    throw InputError(fmt::format(
+        "{}: the part's file states no unit, so that '{}' can't be converted; state it, as in `unit` {}, or give a "
+        "plain number in the part's own unit",
+        what, length.unit, length.unit));
   }
   return length_conversion(length.unit, part_unit, what)(length.value);
 }
@@ -271,6 +271,27 @@ Conversion length_conversion(std::string_view from, std::string_view to, const s
       "{}: {} can't be converted to {}, because '{}' is no unit of length that is known (they are {}, ...); state the "
       "part's with `unit`",
       what, from, to, from_unit ? to : from, unit_names(kLength)));
+}
+
+Length written_length(std::string_view text, const std::string& what) {
+  const std::string_view shown = trimmed(text);
+  const std::optional<Length> length = parse_length(shown);
+  if (!length) {
+    throw InputError(fmt::format("{}: '{}' is not a number, nor one with a unit of length as in 8mm ({}){}", what,
+                                 shown, unit_names(Dimension::length), decimal_comma_hint(shown)));
+  }
+  if (!std::isfinite(length->value)) throw InputError(fmt::format("{}: '{}' is not a finite number", what, shown));
+  return *length;
+}
+
+double written_angle(std::string_view text, const std::string& what) {
+  const std::string_view shown = trimmed(text);
+  const std::optional<double> angle = parse_angle(shown);
+  if (!angle || !std::isfinite(*angle)) {
+    throw InputError(fmt::format("{}: '{}' is not an angle, expected finite radians, or degrees as in 73deg{}", what,
+                                 shown, decimal_comma_hint(shown)));
+  }
+  return *angle;
 }
 
 }  // namespace rollfix

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "rollfix/units.hpp"
+
 namespace rollfix {
 
 /// Reads one number at `cursor` and moves it past the number; false (and the cursor stays) when there is none.
@@ -51,5 +53,11 @@ std::string decimal_comma_hint(std::string_view text);
 /// "1.20", 5e-7 for "1.5e-6", in radians for "73.5deg". 0 for what is taken as exact: a whole number without decimals
 /// ("3", "-20deg", "15e3") and zero ("0", "0.00").
 double rounding_of(std::string_view number);
+
+/// A finite length as written: bare, or with a unit as in 8mm. `what` begins an error. Throws InputError.
+Length written_length(std::string_view text, const std::string& what);
+
+/// A finite angle as written, in radians: bare radians, or degrees as in 73deg. Throws InputError.
+double written_angle(std::string_view text, const std::string& what);
 
 }  // namespace rollfix

@@ -37,7 +37,7 @@ TEST(CliWords, what_is_doubted_is_not_told_as_the_answer) {
             0);
   const std::string text =
       run("locate gallery:limacon --log roll.csv --finger disk,r=0.21 --noise contact=0.005,angle=0.3deg").out;
-  EXPECT_THAT(text, HasSubstr(", but the rows fit badly: taken as said, the "));
+  EXPECT_THAT(text, HasSubstr(", but the rows fit badly: if all is as stated, the "));
   EXPECT_THAT(text, HasSubstr(", but what follows is likelier\nlikeliest: "));
   EXPECT_THAT(text, HasSubstr("\na0       0.00"));  // next to nothing of the probability is of what was said
   EXPECT_THAT(text, Not(HasSubstr(" 0.0000 ")));

@@ -78,6 +78,8 @@ Finger read_outlined(const std::string& text, const std::string& unit) {
 
 Finger read_any(const std::string& text, const std::string& unit) {
   if (text == kJaw) return jaw();
+  if (split(text, ',')[0] == kJaw)
+    throw InputError(fmt::format("--finger {}: a jaw is flat: expected jaw alone", text));
   if (names_wheel(text)) {
     throw InputError(
         fmt::format("--finger {}: a wheel has no skin: locate, watch and advise take it beside a finger with skin, "
@@ -126,7 +128,8 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
 
 std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most, const std::string& unit) {
   if (fingers.size() > most && most == 1) {
-    throw InputError("--finger is given twice, which is two fingers, and the rest is about one; leave one out");
+    throw InputError(
+        fmt::format("--finger is given {} times, expected once: the contacts are of one finger", fingers.size()));
   }
   if (fingers.size() > most) {
     throw InputError(

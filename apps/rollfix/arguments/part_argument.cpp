@@ -13,10 +13,11 @@ namespace rollfix::app {
 LoadOptions read_load_options(const PartArgument& argument) {
   LoadOptions options;
   options.points.open = argument.open;
-  if (!argument.corner_angle.empty()) options.points.corner_angle = read_angle(argument.corner_angle, "--corner-angle");
-  if (!argument.smooth.empty()) options.points.smooth = read_given_length(argument.smooth, "--smooth");
+  if (!argument.corner_angle.empty())
+    options.points.corner_angle = written_angle(argument.corner_angle, "--corner-angle");
+  if (!argument.smooth.empty()) options.points.smooth = written_length(argument.smooth, "--smooth");
   if (!argument.loop.empty()) options.loop = read_count(argument.loop, "--loop", 1);
-  if (!argument.gap.empty()) options.gap = read_given_length(argument.gap, "--gap");
+  if (!argument.gap.empty()) options.gap = written_length(argument.gap, "--gap");
   options.outer = argument.outer;
   options.layer = argument.layer;
   options.points.unit = argument.unit;
@@ -106,7 +107,8 @@ Part load_part(const PartArgument& argument, std::vector<std::string>& notes, st
   LoadedPart loaded = load(argument);
   if (others != nullptr) *others = other_loops(loaded);
   notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
-  if (loaded.loops.size() > 1 && argument.loop.empty()) notes.emplace_back("inspect lists all loops");
+  if (loaded.loops.size() > 1 && argument.loop.empty())
+    notes.push_back(fmt::format("rollfix inspect {} lists all loops", argument.part));
   return std::move(loaded.part);
 }
 

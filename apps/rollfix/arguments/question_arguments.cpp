@@ -214,7 +214,7 @@ std::optional<TouchTolerance> read_tolerance(const std::string& text, const Ques
   const bool is_roll = kind_of(question) == QuestionKind::roll;
   const bool is_angle = question.measured.touches.empty() && text.find(',') == std::string::npos;
   if (!is_roll && !is_angle) return read_touch_tolerance(text, question.part.unit());
-  const double angle = read_angle(text, "--tolerance");
+  const double angle = written_angle(text, "--tolerance");
   if (is_roll && angle < 0) {
     throw InputError(fmt::format("--tolerance: '{}' is negative, expected an angle of at least 0", text));
   }
@@ -234,10 +234,10 @@ Question question_of(Part part, Measurements measured, const RollArguments& argu
   question.robust = arguments.robust;
   question.may_overlap = arguments.may_overlap;
   if (!arguments.facing.empty()) {
-    question.facing = read_angle(arguments.facing, "--facing");
+    question.facing = written_angle(arguments.facing, "--facing");
     question.measured.roundings.push_back({0, half_unit_of_angle(arguments.facing)});
   }
-  if (!arguments.squeezed.empty()) question.squeezed = read_angle(arguments.squeezed, "--squeezed");
+  if (!arguments.squeezed.empty()) question.squeezed = written_angle(arguments.squeezed, "--squeezed");
   question.tolerance = read_tolerance(arguments.tolerance, question);
   if (!arguments.budget.empty()) question.budget = read_count(arguments.budget, "--budget", 1);
   return question;

@@ -69,8 +69,8 @@ std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::st
   }
   PosePrior prior;
   const std::string_view heading = fields[is_pose ? 2 : 0];
-  prior.mean.heading = read_angle(heading, what);
-  prior.heading_sd = read_angle(fields.back(), what);
+  prior.mean.heading = written_angle(heading, what);
+  prior.heading_sd = written_angle(fields.back(), what);
   require_no_bare_degrees(what, heading, prior.mean.heading, kFullTurn);
   require_no_bare_degrees(what, fields.back(), prior.heading_sd, kMostBareSd);
   if (is_pose) {
@@ -97,7 +97,7 @@ Log read_both_logs(const std::vector<std::string>& paths, const LogOptions& opti
 double read_sd(std::string_view value, NoiseKind::Unit unit, const std::string& what) {
   switch (unit) {
     case NoiseKind::Unit::angle:
-      return read_angle(value, what);
+      return written_angle(value, what);
     case NoiseKind::Unit::rate:
       return read_rate(value, what);
     case NoiseKind::Unit::walk:

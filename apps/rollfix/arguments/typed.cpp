@@ -33,29 +33,8 @@ double read_number(std::string_view text, const std::string& what) {
   return value;
 }
 
-Length read_given_length(std::string_view text, const std::string& what) {
-  const std::string_view shown = trimmed(text);
-  const std::optional<Length> length = parse_length(shown);
-  if (!length) {
-    throw InputError(fmt::format("{}: '{}' is not a number, nor one with a unit of length as in 8mm ({}){}", what,
-                                 shown, unit_names(Dimension::length), decimal_comma_hint(shown)));
-  }
-  if (!std::isfinite(length->value)) throw InputError(fmt::format("{}: '{}' is not a finite number", what, shown));
-  return *length;
-}
-
 double read_length(std::string_view text, const std::string& what, const std::string& part_unit) {
-  return in_unit(read_given_length(text, what), part_unit, what);
-}
-
-double read_angle(std::string_view text, const std::string& what) {
-  const std::string_view shown = trimmed(text);
-  const std::optional<double> angle = parse_angle(shown);
-  if (!angle || !std::isfinite(*angle)) {
-    throw InputError(fmt::format("{}: '{}' is not an angle, expected finite radians, or degrees as in 73deg{}", what,
-                                 shown, decimal_comma_hint(shown)));
-  }
-  return *angle;
+  return in_unit(written_length(text, what), part_unit, what);
 }
 
 std::size_t read_count(std::string_view text, const std::string& what, std::size_t least) {
@@ -100,7 +79,7 @@ double read_per(std::string_view text, const std::string& what, const Table& tab
   if (unit == table.end()) throw InputError(fmt::format("{}: '{}' is none of {}", what, shown, examples));
   std::string_view angle = trimmed(shown.substr(0, slash));
   if (angle.size() > 3 && angle.substr(angle.size() - 3) == "rad") angle.remove_suffix(3);
-  return read_angle(angle, what) / unit->seconds;
+  return written_angle(angle, what) / unit->seconds;
 }
 
 }  // namespace
@@ -142,46 +121,6 @@ double half_unit(std::string_view number) {
   return rounding_of(number);
 }
 
-/// Trailing zeros are often left off, so all numbers are taken to be rounded alike: to the decimals of the one that
-/// shows most of them, each in its own unit. `lengths`: as typed.
-Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
-                         const std::string& unit) {
-  double finest = 0;
-  for (const std::string_view field : fields) {
-    const double one = half_unit(field);
-    if (one > 0 && (finest == 0 || one < finest)) finest = one;
-  }
-  double length = 0;
-  for (const Length& one : lengths) length += in_unit({finest, one.unit}, unit, "");
-  return {length, finest * (in_degrees(fields.back()) ? kDegree : 1)};
-}
-
-std::string found_instead(std::size_t count) {
-  if (count == 1) return "1 number";
-  return fmt::format("{} numbers; are there decimal commas among them?", count);
-}
-
-/// LENGTH,TURN of one finger, or LENGTH_A,LENGTH_B,TURN of two.
-void read_reading(const std::string& text, bool of_two, const std::string& unit, Measurements& measured) {
-  const std::string what = fmt::format("--reading {}", text);
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (of_two && fields.size() != 3) {
-    throw InputError(fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, found {}", what,
-                                 found_instead(fields.size())));
-  }
-  if (!of_two && fields.size() != 2) {
-    throw InputError(
-        fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
-                    what, found_instead(fields.size())));
-  }
-  std::vector<Length> lengths;
-  for (std::size_t k = 0; k + 1 < fields.size(); ++k) lengths.push_back(read_given_length(fields[k], what));
-  const auto length = [&](std::size_t k) { return in_unit(lengths[k], unit, what); };
-  const double turn = read_angle(fields.back(), what);
-  measured.readings.push_back(of_two ? Reading(length(0), length(1), turn) : Reading(length(0), turn));
-  measured.roundings.push_back(common_rounding(fields, lengths, unit));
-}
-
 // A turn of more than this, and of as much again for each lap that was rolled, radians, was hardly meant as radians.
 constexpr double kHardlyRadians = 4 * std::numbers::pi;
 
@@ -201,14 +140,14 @@ double half_unit_of_angle(const std::string& angle) { return half_unit(angle) * 
 
 Measurements read_readings(const std::vector<std::string>& readings, const Part& part,
                            std::vector<std::string>& notes) {
-  Measurements measured;
-  const bool of_two = std::any_of(readings.begin(), readings.end(),
-                                  [](const std::string& text) { return split(text, ',').size() == 3; });
-  for (const std::string& text : readings) {
-    read_reading(text, of_two, part.unit(), measured);
-    const std::string hint = degrees_hint(text, measured.readings.back(), part);
+  Measurement of_roll = rollfix::typed(readings, part.unit());
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const std::string hint = degrees_hint(readings[k], of_roll.readings[k], part);
     if (!hint.empty()) notes.push_back(hint);
   }
+  Measurements measured;
+  measured.readings = std::move(of_roll.readings);
+  measured.roundings = std::move(of_roll.roundings);
   return measured;
 }
 

@@ -200,7 +200,7 @@ std::string identify_text(const Json& document, const std::string& unit) {
   return text;
 }
 
-ExitCode exit_code_of(const Json& identified) {
+ExitCode exit_code_of_parts(const Json& identified) {
   if (identified["status"] != "complete") return ExitCode::incomplete;
   return identified["parts"].empty() ? ExitCode::nothing_fits : ExitCode::fits;
 }
@@ -246,7 +246,7 @@ Problem read_question(const IdentifyArguments& arguments, const Catalog& catalog
 
 Report of_document(const std::string& text, const IdentifyArguments& arguments, const Catalog& catalog, Report report) {
   const Json document = Json::parse(text);
-  report.exit_code = exit_code_of(document);
+  report.exit_code = exit_code_of_parts(document);
   report.data = arguments.json ? text : identify_text(document, catalog.unit());
   return report;
 }

@@ -154,7 +154,7 @@ void judge_by_further_readings(const Part& part, const MarchQuestion& question, 
   }
 }
 
-std::string verdict_of(const Marched& marched) {
+std::string march_verdict(const Marched& marched) {
   if (!marched.complete()) return "undecided";
   if (marched.found.empty()) return "inconsistent";
   return marched.found.size() == 1 ? "unique" : fmt::format("ambiguous ({})", marched.found.size());
@@ -201,7 +201,7 @@ std::string march_json(const Part& part, const MarchQuestion& question, const Ma
   return json_text({{"schema", "rollfix/locate/1"},
                     {"method", "march"},
                     {"status", marched.complete() ? "complete" : "incomplete"},
-                    {"verdict", verdict_of(marched)},
+                    {"verdict", march_verdict(marched)},
                     {"part", part_json(part)},
                     {"fingers", question.readings.front().length.size()},
                     {"readings", readings},
@@ -243,8 +243,8 @@ std::string table_of(const Part& part, const Marched& marched) {
 std::string march_text(const Part& part, const MarchQuestion& question, const Marched& marched) {
   const int decimals = decimals_for(part.perimeter());
   const auto loop = static_cast<double>(marched.steps_per_loop);
-  std::string text = fmt::format("{}: by the paper's march\n\npart       {}, {}, perimeter {}{}\n", verdict_of(marched),
-                                 plain(part.name()), part.closed() ? "closed" : "open",
+  std::string text = fmt::format("{}: by the paper's march\n\npart       {}, {}, perimeter {}{}\n",
+                                 march_verdict(marched), plain(part.name()), part.closed() ? "closed" : "open",
                                  fixed(part.perimeter(), decimals), behind(part.unit()));
   for (const MarchReading& reading : question.readings) {
     std::string lengths = fixed(reading.length[0], decimals);

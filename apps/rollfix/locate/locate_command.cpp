@@ -235,26 +235,15 @@ ExitCode exit_code_of(const Solution& solution) {
   return solution.fits() ? ExitCode::fits : ExitCode::nothing_fits;
 }
 
-/// On a corner of the finger only where the contact is is known.
-std::string corner_rows_note(const Answer& answer) {
-  const std::size_t count = answer.corner_rows.count;
-  return fmt::format(
-      "{} on a corner of the finger, where u does not tell how its normal is turned: {}",
-      count == 1 ? "1 row is" : fmt::format("{} rows are", count),
-      answer.weighing ? "they are not weighed" : "there the turn is open, between the others it is exact");
-}
-
 void add_notes(const Answer& answer, Report& report) {
   for (const Finger& finger : answer.fingers) {
     if (has_reach(finger)) continue;
     report.notes.push_back(no_reach_note(finger));
     break;
   }
-  if (answer.corner_rows.count > 0) report.notes.push_back(corner_rows_note(answer));
   if (answer.part.reversed()) report.notes.push_back(reversed_note(answer.part));
   if (!answer.strays.empty()) report.notes.push_back(strays_note(answer.strays));
-  if (!answer.other_way.empty()) report.notes.push_back("the other way round no such roll can be: " + answer.other_way);
-  if (answer.lengths_reversed) report.notes.emplace_back("the log's lengths changed their signs to match");
+  for (std::string& note : notes_of(answer)) report.notes.push_back(std::move(note));
 }
 
 void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {

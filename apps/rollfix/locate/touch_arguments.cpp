@@ -122,9 +122,9 @@ MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
     touch.at[static_cast<Eigen::Index>(k)] =
         is_given(k) ? read_length(fields[k], what, unit) : std::numeric_limits<double>::quiet_NaN();
   }
-  if (is_given(2)) touch.normal = read_angle(fields[2], what);
+  if (is_given(2)) touch.normal = written_angle(fields[2], what);
   if (is_given(3)) touch.position_sd = read_length(fields[3], what, unit);
-  if (is_given(4)) touch.normal_sd = read_angle(fields[4], what);
+  if (is_given(4)) touch.normal_sd = written_angle(fields[4], what);
   return touch;
 }
 
@@ -135,7 +135,7 @@ TouchTolerance read_touch_tolerance(const std::string& text, const std::string& 
     throw InputError(
         fmt::format("{}: expected LENGTH or LENGTH,ANGLE, as in 0.1,2deg, found {} numbers", what, fields.size()));
   }
-  return {read_length(fields[0], what, unit), fields.size() == 2 ? read_angle(fields[1], what) : 0};
+  return {read_length(fields[0], what, unit), fields.size() == 2 ? written_angle(fields[1], what) : 0};
 }
 
 void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, RollArguments& arguments) {

@@ -45,7 +45,7 @@ std::string hold_text(const HoldAnswer& answer);
 /// touch's place on the part.
 std::string touches_text(const TouchAnswer& answer, bool verbose);
 
-/// "1.0020 +- 0.0004 times what was measured: they are 0.2 % longer": a scale that the rows tell. `more`, `less`: what
+/// "scale 1.0020 ± 0.0004 (1 = as measured): they are 0.2 % longer": a scale that the rows tell. `more`, `less`: what
 /// they are where it is above 1, and below.
 std::string scale_text(double scale, double sd, const char* more, const char* less);
 

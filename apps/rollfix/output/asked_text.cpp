@@ -15,14 +15,14 @@ namespace {
 /// In degrees per hour, as data sheets have it.
 std::string bias_text(const Fit& fit) {
   constexpr double kDegreesPerHour = 3600 * 180 / std::numbers::pi;
-  return fmt::format("{:.4g} +- {:.2g} deg/h: the rate of the gyroscope at rest", fit.turn_bias * kDegreesPerHour,
+  return fmt::format("{:.4g} ± {:.2g} deg/h: the rate of the gyroscope at rest", fit.turn_bias * kDegreesPerHour,
                      fit.turn_bias_sd * kDegreesPerHour);
 }
 
 }  // namespace
 
 std::string scale_text(double scale, double sd, const char* more, const char* less) {
-  std::string text = fmt::format("{:.4f} +- {:.2g} times what was measured", scale, sd);
+  std::string text = fmt::format("scale {:.4f} ± {:.2g} (1 = as measured)", scale, sd);
   const double off = 100 * (scale - 1);
   if (std::abs(scale - 1) > 2 * sd) text += fmt::format(": they are {:.2g} % {}", std::abs(off), off > 0 ? more : less);
   return text;
@@ -123,7 +123,7 @@ class AskedText : AnswerWords {
       text += fmt::format("; residuals {:.2f} times the noise, the answer is widened by that", weighing.fit.excess);
     text += '\n' + caution_lines(weighing.fit);
     if (answer_.dropped.improbable > 0) {
-      text += fmt::format("dropped    {} the readings above, but not all samples\n",
+      text += fmt::format("rejected   {} the readings above, but not the whole log\n",
                           counted(answer_.dropped.improbable, "candidate that fits", "candidates that fit"));
     }
     return text;

@@ -130,7 +130,7 @@ class VerdictText : AnswerWords {
     const Placement& first = answer_.placements.front();
     const Verdict& verdict = answer_.verdict;
     if (is_doubted() && verdict.name != Verdict::unobservable) {
-      return fmt::format(": taken as said, the {} {}, but what follows is likelier",
+      return fmt::format(": if all is as stated, the {} {}, but what follows is likelier",
                          verdict.name != Verdict::unique ? "likeliest start is"
                          : fingers_ == 1                 ? "finger started at"
                                                          : "roll started with",

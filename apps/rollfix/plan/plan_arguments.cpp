@@ -66,7 +66,7 @@ PlanLimits read_limits(const std::string& text, const std::string& unit) {
     }
     if (*limit) throw InputError(fmt::format("{}: {} is given twice", what, name));
     const bool is_length = name == "speed" || name == "travel";
-    *limit = is_length ? read_length(per_second(value), what, unit) : read_angle(per_second(value), what);
+    *limit = is_length ? read_length(per_second(value), what, unit) : written_angle(per_second(value), what);
     if (!(**limit > 0)) throw InputError(fmt::format("{}: expected a {} above 0, found {}", what, name, value));
   }
   return limits;
@@ -79,7 +79,7 @@ Pose read_start_pose(const std::string& text, const std::string& unit) {
   if (fields.size() != 3) {
     throw InputError(what + ": expected X,Y,HEADING as in 100,40,12deg: where the part lies in the world at the start");
   }
-  return {read_length(fields[0], what, unit), read_length(fields[1], what, unit), read_angle(fields[2], what)};
+  return {read_length(fields[0], what, unit), read_length(fields[1], what, unit), written_angle(fields[2], what)};
 }
 
 Staying read_staying(const std::string& text) {
@@ -114,7 +114,8 @@ PlanFinger read_plan_finger(const PlanArguments& arguments, const Part& part, co
     return finger;
   }
   const std::vector<std::string>& angles = arguments.contact_angles;
-  const double angle = angles.empty() ? 0 : read_angle(angles[std::min(which, angles.size() - 1)], "--contact-angle");
+  const double angle =
+      angles.empty() ? 0 : written_angle(angles[std::min(which, angles.size() - 1)], "--contact-angle");
   const double s = finger.start.value_or(0);
   if (part.closed() || (s >= 0 && s <= part.perimeter())) {
     const double inward = part.tangent(s) + std::numbers::pi / 2;
@@ -217,11 +218,12 @@ PlanProblem read_plan_problem(const PlanArguments& arguments, const Part& part) 
     problem.fingers[which] = read_plan_finger(arguments, part, *finger_of(shapes, which), which, problem.pose.heading);
   }
   read_friction(arguments.friction, problem);
-  if (!arguments.part_rotation.empty()) problem.part_rotation = read_angle(arguments.part_rotation, "--part-rotation");
+  if (!arguments.part_rotation.empty())
+    problem.part_rotation = written_angle(arguments.part_rotation, "--part-rotation");
   problem.staying = read_staying(arguments.stays);
   problem.limits = read_limits(arguments.limits, part.unit());
   if (!arguments.duration.empty()) problem.duration = read_number(arguments.duration, "--duration");
-  if (!arguments.margin.empty()) problem.margin = read_angle(arguments.margin, "--margin");
+  if (!arguments.margin.empty()) problem.margin = written_angle(arguments.margin, "--margin");
   if (!arguments.clearance.empty()) problem.clearance = read_length(arguments.clearance, "--clearance", part.unit());
   problem.mirrored = arguments.mirror;
   problem.may_overlap = arguments.may_overlap;

@@ -159,7 +159,7 @@ void require_plan_files(const PlanArguments& arguments) {
   }
 }
 
-ExitCode exit_code_of(const Plan& plan) {
+ExitCode exit_code_of_plan(const Plan& plan) {
   if (plan.failure) return ExitCode::nothing_fits;
   return plan.decided ? ExitCode::fits : ExitCode::incomplete;
 }
@@ -191,7 +191,7 @@ Report plan(const PlanArguments& arguments) {
   const PlanProblem problem = read_plan_problem(arguments, part);
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   const Plan plan = solve(problem);
-  report.exit_code = exit_code_of(plan);
+  report.exit_code = exit_code_of_plan(plan);
   report.data = arguments.json ? format_plan_document(plan, problem) : plan_text(plan, problem);
   add_plan_files(arguments, plan, problem, report);
   return report;

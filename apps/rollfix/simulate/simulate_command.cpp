@@ -30,7 +30,7 @@ bool is_stdout(const std::string& file) { return file == "-"; }
 double orientation_at(const Part& part, double s, const SimulateArguments& arguments, std::size_t finger) {
   const std::vector<std::string>& typed = arguments.contact_angles;  // one may speak for both fingers
   const double contact_angle =
-      typed.empty() ? 0 : read_angle(typed[std::min(finger, typed.size() - 1)], "--contact-angle");
+      typed.empty() ? 0 : written_angle(typed[std::min(finger, typed.size() - 1)], "--contact-angle");
   // Off an open part there is no tangent; the roll will say so.
   if (!part.closed() && !(s >= 0 && s <= part.perimeter())) return 0;
   // u + psi is the direction from the finger's centre to the contact: a right angle left of the tangent.

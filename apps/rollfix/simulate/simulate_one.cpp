@@ -49,7 +49,7 @@ RollPlan plan_of(const SimulateArguments& arguments, const Part& part, const Fin
   if (!arguments.lengths.empty()) {
     plan.distance = read_length(arguments.lengths.front(), "--length", part.unit());
   }
-  if (!arguments.rotation.empty()) plan.rotation = read_angle(arguments.rotation, "--rotation");
+  if (!arguments.rotation.empty()) plan.rotation = written_angle(arguments.rotation, "--rotation");
   if (!arguments.samples.empty()) plan.rows = read_count(arguments.samples, "--samples", 2);
   place_contact(arguments, part, finger, plan);
   return plan;

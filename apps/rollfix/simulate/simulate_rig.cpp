@@ -16,11 +16,11 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::string_view kWheel = "wheel,";
+constexpr std::string_view kWheelPrefix = "wheel,";
 // A typed --start of a squeezed wheel means the place within this share of the perimeter where it can be squeezed.
 constexpr double kMeant = 0.02;
 
-bool is_wheel(const std::string& finger) { return finger.substr(0, kWheel.size()) == kWheel; }
+bool is_wheel(const std::string& finger) { return finger.substr(0, kWheelPrefix.size()) == kWheelPrefix; }
 
 void require_rig(const SimulateArguments& arguments) {
   const std::vector<std::string>& fingers = arguments.fingers;
@@ -119,7 +119,7 @@ RigPlan plan_of(const SimulateArguments& arguments, const Part& part, double rad
   plan.psi = orientation_at(part, plan.start[1], arguments, 0);
   if (!arguments.contacts.empty()) plan.u = read_length(arguments.contacts[0], "--contact", part.unit());
   if (!arguments.samples.empty()) plan.rows = read_count(arguments.samples, "--samples", 2);
-  double turn = arguments.jaw_rotation.empty() ? 0 : read_angle(arguments.jaw_rotation, "--jaw-rotation");
+  double turn = arguments.jaw_rotation.empty() ? 0 : written_angle(arguments.jaw_rotation, "--jaw-rotation");
   if (arguments.mirror) {  // on the drawn outline rolls what a mirror shows
     plan.u = mirrored_u(jaw(), plan.u);
     pin.x() = 0.0 - pin.x();
@@ -158,7 +158,7 @@ Report simulate_rig(const SimulateArguments& arguments) {
   Report report;
   const Part part = load_part(arguments.part, report.notes);
   const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments, part.unit());
-  const std::string as_disk = "disk," + arguments.fingers[1].substr(kWheel.size());
+  const std::string as_disk = "disk," + arguments.fingers[1].substr(kWheelPrefix.size());
   const std::vector<Finger> fingers = read_fingers({arguments.fingers[0], as_disk}, 2, part.unit());
   const RigPlan plan = plan_of(arguments, part, fingers[1].disk()->radius);
   NoisyRoll noisy;

@@ -61,7 +61,7 @@ FreePlan plan_of(const SimulateArguments& arguments, const Part& part, const std
   for (const std::size_t which : {0U, 1U}) {
     plan.fingers[which] = plan_of(arguments, part, *finger_of(fingers, which), which);
   }
-  if (!arguments.part_rotation.empty()) plan.part_rotation = read_angle(arguments.part_rotation, "--part-rotation");
+  if (!arguments.part_rotation.empty()) plan.part_rotation = written_angle(arguments.part_rotation, "--part-rotation");
   if (!arguments.samples.empty()) plan.rows = read_count(arguments.samples, "--samples", 2);
   return plan;
 }

@@ -156,7 +156,7 @@ void read_fingers_and_wheel(const WatchArguments& arguments, std::size_t logs, c
         *wheel));
   }
   options.wheel = read_wheel(*wheel, unit);
-  if (!arguments.squeezed.empty()) options.squeezed = read_angle(arguments.squeezed, "--squeezed");
+  if (!arguments.squeezed.empty()) options.squeezed = written_angle(arguments.squeezed, "--squeezed");
   with_skin.erase(wheel);
   options.fingers = read_fingers(with_skin, 1, unit);
 }

@@ -249,13 +249,14 @@ class TextWriter : public WatchWriter {
     if (last.modes.empty()) return last.verdict.text() + ": nothing that fits is within the finger's reach";
     const Mode& only = last.modes.front();
     const bool is_doubted = !last.diagnoses.empty() && only.probability < kDoubtful;
-    return fmt::format("{}: {}roll {} started at {}{}{}", last.verdict.text(), is_doubted ? "taken as said, " : "",
-                       last.roll, place_of(only), is_doubted ? ", but what follows is likelier" : "", why(last));
+    return fmt::format("{}: {}roll {} started at {}{}{}", last.verdict.text(),
+                       is_doubted ? "if all is as stated, " : "", last.roll, place_of(only),
+                       is_doubted ? ", but what follows is likelier" : "", why(last));
   }
 
   std::string place_of(const Mode& mode) const {
     const auto of = [&](std::size_t k) {
-      return fmt::format("s = {} +- {}{}", fixed(mode.start[k], decimals_), rough(mode.sd[k]), behind(unit_));
+      return fmt::format("s = {} ± {}{}", fixed(mode.start[k], decimals_), rough(mode.sd[k]), behind(unit_));
     };
     return mode.start.size() == 1 ? of(0) : fmt::format("{} (finger a) and {} (finger b)", of(0), of(1));
   }

@@ -138,11 +138,8 @@ void bind_answer(py::module_& module) {
                                               });
                              })
       .def_property_readonly("pose_time", [](const AnswerHandle& handle) { return array_of(handle.answer->pose_time); })
-      .def_property_readonly("other_way", [](const AnswerHandle& handle) { return handle.answer->other_way; })
       .def_property_readonly("pivots", &pivots_of)
-      .def_property_readonly("corner_rows", [](const AnswerHandle& handle) { return handle.answer->corner_rows.count; })
-      .def_property_readonly("lengths_reversed",
-                             [](const AnswerHandle& handle) { return handle.answer->lengths_reversed; })
+      .def_property_readonly("notes", [](const AnswerHandle& handle) { return notes_of(*handle.answer); })
       .def("density_pieces", &density_of)
       .def("density", &density_each)
       .def("document", &whole_document)

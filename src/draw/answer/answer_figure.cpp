@@ -37,7 +37,7 @@ constexpr double kWorldHeight = 340;     // below two fingers' square, pixels
 /// One plan on a page of its own, drawn from the bottom to the top.
 class AnswerPicture {
  public:
-  explicit AnswerPicture(const Plan& plan)
+  explicit AnswerPicture(const AnswerPlan& plan)
       : plan_(plan),
         legend_(legend_of(plan)),
         drawing_end_(kHeaderHeight + drawing_height(plan.framing)),
@@ -79,7 +79,7 @@ class AnswerPicture {
   }
 
  private:
-  static double below_height(const Plan& plan) {
+  static double below_height(const AnswerPlan& plan) {
     const bool has_world_below = plan.has_pairs() && plan.has_world();
     return std::max(spread_height(plan), has_world_below ? kWorldHeight : 0);
   }
@@ -125,7 +125,7 @@ class AnswerPicture {
     return turning.angle(plan_.start(way) + length) - turning.angle(plan_.start(way));
   }
 
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   Legend legend_;
   double drawing_end_;
   Svg svg_;
@@ -140,16 +140,16 @@ class AnswerPicture {
 }  // namespace draw
 
 Svg draw_answer(const AnswerFigure& figure) {
-  const draw::Plan plan = draw::plan_of(figure);
+  const draw::AnswerPlan plan = draw::plan_of(figure);
   return draw::AnswerPicture(plan).draw();
 }
 
 Svg side_by_side(const std::vector<AnswerFigure>& figures) {
   if (figures.empty()) throw InputError("a row of figures needs at least one, found none");
-  std::vector<draw::Plan> plans;
+  std::vector<draw::AnswerPlan> plans;
   for (const AnswerFigure& figure : figures) plans.push_back(draw::plan_of(figure));
-  for (draw::Plan& plan : plans) {
-    for (const draw::Plan& other : plans) {
+  for (draw::AnswerPlan& plan : plans) {
+    for (const draw::AnswerPlan& other : plans) {
       if (&plan.part().turning() != &other.part().turning()) continue;
       plan.framing.extras.extend(other.framing.extras);
       plan.framing.margin = std::max(plan.framing.margin, other.framing.margin);
@@ -158,7 +158,7 @@ Svg side_by_side(const std::vector<AnswerFigure>& figures) {
   std::vector<Svg> pictures;
   double width = 0, height = 0;
   std::string titles;
-  for (const draw::Plan& plan : plans) {
+  for (const draw::AnswerPlan& plan : plans) {
     pictures.push_back(draw::AnswerPicture(plan).draw());
     width += pictures.back().width();
     height = std::max(height, pictures.back().height());

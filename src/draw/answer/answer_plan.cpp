@@ -32,7 +32,7 @@ void require_valid(const AnswerFigure& figure) {
   }
 }
 
-std::vector<Way> ways_of(const Plan& plan) {
+std::vector<Way> ways_of(const AnswerPlan& plan) {
   if (plan.has_pairs()) return plan.shown ? std::vector<Way>{{*plan.shown, 0}, {*plan.shown, 1}} : std::vector<Way>{};
   std::vector<Way> ways;
   for (std::size_t i = 0; i < plan.placements().size(); ++i) ways.push_back({i, 0});
@@ -40,7 +40,7 @@ std::vector<Way> ways_of(const Plan& plan) {
 }
 
 /// The fingers that are drawn, as far as they are not too far off.
-Box fingers_of(Plan& plan) {
+Box fingers_of(AnswerPlan& plan) {
   Box box;
   for (const Way& way : plan.ways) {
     if (!plan.has_finger(way)) continue;
@@ -52,7 +52,7 @@ Box fingers_of(Plan& plan) {
   return box;
 }
 
-Lanes lanes_of(const Plan& plan) {
+Lanes lanes_of(const AnswerPlan& plan) {
   std::vector<Interval> stretches;
   for (const Way& way : plan.ways) {
     const Interval& hull = plan.roll(way).hull;
@@ -63,7 +63,7 @@ Lanes lanes_of(const Plan& plan) {
   return assign_lanes(stretches, plan.part().boundary(), gap);
 }
 
-void read_along_outline(Plan& plan) {
+void read_along_outline(AnswerPlan& plan) {
   plan.readings = plan.figure->answer->readings;
   plan.facing = plan.figure->answer->facing;
   if (!plan.figure->answer->mirrored) return;
@@ -74,7 +74,7 @@ void read_along_outline(Plan& plan) {
   if (plan.facing) plan.facing = -*plan.facing;
 }
 
-int lanes_each(const Plan& plan) { return std::max(plan.rolls[0].lanes, plan.rolls[1].lanes); }
+int lanes_each(const AnswerPlan& plan) { return std::max(plan.rolls[0].lanes, plan.rolls[1].lanes); }
 
 std::vector<PairLine> lines_of(const Answer& answer) {
   std::vector<PairLine> lines;
@@ -98,36 +98,36 @@ bool has_places(const Log& log) {
 
 }  // namespace
 
-std::size_t Plan::world_placement() const {
+std::size_t AnswerPlan::world_placement() const {
   if (shown) return *shown;
   return figure->highlight.value_or(0);
 }
 
-bool Plan::has_world() const {
+bool AnswerPlan::has_world() const {
   if (figure->log == nullptr || placements().empty() || figure->answer->fingers.empty()) return false;
   return has_places(*figure->log) && !placements()[world_placement()].pose.empty();
 }
 
-bool Plan::has_arcs() const { return has_pairs() || placements().size() <= most.arcs; }
-bool Plan::has_labels() const { return placements().size() <= most.labels; }
+bool AnswerPlan::has_arcs() const { return has_pairs() || placements().size() <= most.arcs; }
+bool AnswerPlan::has_labels() const { return placements().size() <= most.labels; }
 
-bool Plan::has_list() const { return has_pairs() || ways.size() <= most.listed; }
+bool AnswerPlan::has_list() const { return has_pairs() || ways.size() <= most.listed; }
 
-bool Plan::is_anywhere(std::size_t placement, std::size_t finger) const {
+bool AnswerPlan::is_anywhere(std::size_t placement, std::size_t finger) const {
   return part().closed() && placements()[placement].interval[finger].width() > kNearlyAll * part().perimeter();
 }
 
-Interval Plan::held(std::size_t placement, std::size_t finger) const {
+Interval AnswerPlan::held(std::size_t placement, std::size_t finger) const {
   return is_anywhere(placement, finger) ? part().boundary().full_arc() : placements()[placement].interval[finger];
 }
 
-double Plan::strength(std::size_t placement) const {
+double AnswerPlan::strength(std::size_t placement) const {
   double likeliest = 0;
   for (const Placement& each : placements()) likeliest = std::max(likeliest, each.probability);
   return likeliest > 0 ? placements()[placement].probability / likeliest : 1;
 }
 
-std::string Plan::key() const {
+std::string AnswerPlan::key() const {
   std::vector<std::string> parts;
   if (!has_arcs()) parts.emplace_back("rolls");
   if (!has_labels()) parts.emplace_back("labels");
@@ -144,53 +144,53 @@ std::string Plan::key() const {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-bool Plan::has_finger(const Way& way) const {
+bool AnswerPlan::has_finger(const Way& way) const {
   if (!radius(way.finger)) return false;
   if (has_pairs()) return true;
   return figure->highlight ? *figure->highlight == way.placement : placements().size() <= kMostFingers;
 }
 
-bool Plan::is_named(std::size_t k) const {
+bool AnswerPlan::is_named(std::size_t k) const {
   const std::size_t last = figure->answer->readings.size();
   return last <= kMostNamed || k == 0 || k == last;
 }
 
-std::size_t Plan::number(std::size_t placement) const {
+std::size_t AnswerPlan::number(std::size_t placement) const {
   return figure->numbers.empty() ? placement : figure->numbers[placement];
 }
 
-std::string_view Plan::colour_of(const Way& way) const {
+std::string_view AnswerPlan::colour_of(const Way& way) const {
   return has_pairs() ? kFingerColours[way.finger] : colour(number(way.placement));
 }
 
-double Plan::line_width(const Way& way) const {
+double AnswerPlan::line_width(const Way& way) const {
   const double width = std::clamp(0.4 * spacing, 0.6, 2.4);
   return !has_pairs() && figure->highlight == way.placement ? 1.5 * width : width;
 }
 
-double Plan::width() const { return figure->width > 0 ? figure->width : has_pairs() || has_world() ? 960 : 640; }
+double AnswerPlan::width() const { return figure->width > 0 ? figure->width : has_pairs() || has_world() ? 960 : 640; }
 
-std::optional<double> Plan::radius(std::size_t finger) const {
+std::optional<double> AnswerPlan::radius(std::size_t finger) const {
   const std::vector<Finger>& fingers = figure->answer->fingers;
   if (fingers.empty()) return std::nullopt;
   const Finger& own = finger == 0 ? fingers.front() : fingers.back();
   return own.is_disk() ? std::optional(own.disk()->radius) : std::nullopt;
 }
 
-double Plan::place(const Way& way, std::size_t k) const {
+double AnswerPlan::place(const Way& way, std::size_t k) const {
   const bool is_last = k > 0 && k == roll(way).contacts.size();
   // Of two fingers the arcs' ends are marked: with noise the estimated contacts are a little beside them.
   return is_last && !has_pairs() ? placement(way).end[way.finger] : start(way) + travelled(way, k);
 }
 
-double Plan::offset(std::size_t way, const Run& run, double travelled) const {
+double AnswerPlan::offset(std::size_t way, const Run& run, double travelled) const {
   const double winding = goes_round(run, part().boundary()) ? travelled / part().perimeter() : 0;
   return kFirstLane + spacing * (lanes.of[way] * lanes_each(*this) + run.lane + winding);
 }
 
-Plan plan_of(const AnswerFigure& figure) {
+AnswerPlan plan_of(const AnswerFigure& figure) {
   require_valid(figure);
-  Plan plan;
+  AnswerPlan plan;
   plan.figure = &figure;
   const bool pairs = plan.has_pairs();
   if (pairs) {

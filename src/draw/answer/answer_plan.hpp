@@ -37,7 +37,7 @@ struct Most {
 };
 
 /// Everything about a figure of an answer that is decided before it is drawn: what is shown, and on which lane.
-struct Plan {
+struct AnswerPlan {
   const AnswerFigure* figure = nullptr;
   std::optional<std::size_t> shown;  // of two fingers the placement whose rolls are drawn
   std::vector<Reading> readings;     // along the outline as stored: of a part that lies face down with other signs
@@ -100,22 +100,22 @@ struct Plan {
 };
 
 /// Throws InputError: no answer, or an index that is out of range. The figure has to outlive the plan.
-Plan plan_of(const AnswerFigure& figure);
+AnswerPlan plan_of(const AnswerFigure& figure);
 
 inline constexpr std::array<std::string_view, 2> kFingerColours = {kPalette[0], kPalette[1]};
 
 /// The name of contact k: of one finger a0, b0, with the placement's number, of two s0, s1 and t0, t1.
-Text contact_name(const Plan& plan, const Way& way, std::size_t k);
+Text contact_name(const AnswerPlan& plan, const Way& way, std::size_t k);
 
 /// The name of a first contact, with noise and its probability where there are several.
-Text start_name(const Plan& plan, const Way& way);
+Text start_name(const AnswerPlan& plan, const Way& way);
 
 /// The line below the title: the readings of one finger, or whose rolls of two are shown.
-Text small_print(const Plan& plan);
+Text small_print(const AnswerPlan& plan);
 
 /// What lies below the drawing: of one finger the placements with their contacts, unless there are many; of two both
 /// fingers' contacts and the equations.
-Legend legend_of(const Plan& plan);
+Legend legend_of(const AnswerPlan& plan);
 
 /// What the square of all pairs takes of a page of this width, at the right of the part: pixels.
 double plane_width(double page_width);
@@ -125,29 +125,30 @@ double plane_height(double page_width);
 inline constexpr double kVisibleBand = 2;
 
 /// What fits with the placements, or holds 95 % of each, under the boundary.
-void draw_bands(Svg& svg, const Plan& plan, const Scene& scene);
+void draw_bands(Svg& svg, const AnswerPlan& plan, const Scene& scene);
 
 /// How dense the first contacts are, as areas outside of the boundary.
-void draw_ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles);
+void draw_ribbons(Svg& svg, const AnswerPlan& plan, const Scene& scene, const Clearance& clearance,
+                  Obstacles& obstacles);
 
 /// Below the legend, with noise: the density over s, of two fingers the likeliest pairs. Pixels.
-double spread_width(const Plan& plan);
-double spread_height(const Plan& plan);
-void draw_spread(Svg& svg, const Plan& plan, double top);
+double spread_width(const AnswerPlan& plan);
+double spread_height(const AnswerPlan& plan);
+void draw_spread(Svg& svg, const AnswerPlan& plan, double top);
 
 /// The part and the fingers in the world: beside the part, of two fingers below it at the right. 0: not shown.
-double world_width(const Plan& plan);
-void draw_world(Svg& svg, const Plan& plan, const Box& area);
+double world_width(const AnswerPlan& plan);
+void draw_world(Svg& svg, const AnswerPlan& plan, const Box& area);
 
 /// The square of all pairs with its lines and placements.
-void draw_pair_plane(Svg& svg, const Plan& plan);
+void draw_pair_plane(Svg& svg, const AnswerPlan& plan);
 
 /// Draws an answer's placements at the boundary: each roll as an arc beside it with its marks and their names, of two
 /// fingers those of the shown pair and dots for the others. Where there are too many for arcs, a tick at each start.
 class PlacementPen {
  public:
   /// All of them have to outlive the pen.
-  PlacementPen(Svg& svg, const Plan& plan, const Scene& scene, RollPen& pen, LabelSet& labels)
+  PlacementPen(Svg& svg, const AnswerPlan& plan, const Scene& scene, RollPen& pen, LabelSet& labels)
       : svg_(svg), plan_(plan), scene_(scene), pen_(pen), labels_(labels) {}
 
   void draw();
@@ -176,7 +177,7 @@ class PlacementPen {
   std::string ink(const Way& way, std::string_view colour) const;
 
   Svg& svg_;
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   const Scene& scene_;
   RollPen& pen_;
   LabelSet& labels_;

@@ -46,7 +46,7 @@ Text readings_text(const std::vector<Reading>& readings) {
 }
 
 /// With noise: where it started, give or take, and how probable that is.
-Text weighed_text(const Plan& plan, const Way& way) {
+Text weighed_text(const AnswerPlan& plan, const Way& way) {
   const Placement& placement = plan.placement(way);
   const double sd = placement.sd[0];
   Text text = contact_name(plan, way, 0);
@@ -68,7 +68,7 @@ Text weighed_text(const Plan& plan, const Way& way) {
   return text;
 }
 
-Text placement_text(const Plan& plan, const Way& way) {
+Text placement_text(const AnswerPlan& plan, const Way& way) {
   if (plan.has_noise()) return weighed_text(plan, way);
   const Placement& placement = plan.placement(way);
   const std::size_t last = plan.roll(way).contacts.size();
@@ -90,7 +90,7 @@ Text placement_text(const Plan& plan, const Way& way) {
 }
 
 /// With noise: how probable a pair is, and where each finger started.
-Text pair_text(const Plan& plan, std::size_t k) {
+Text pair_text(const AnswerPlan& plan, std::size_t k) {
   const Placement& placement = plan.placements()[k];
   Text text{{fmt::format("{}: {}", k, percent(placement.probability)), false, true, false}};
   text.push_back({", 95 %: "});
@@ -106,7 +106,7 @@ Text pair_text(const Plan& plan, std::size_t k) {
   return text;
 }
 
-Text finger_text(const Plan& plan, std::size_t finger) {
+Text finger_text(const AnswerPlan& plan, std::size_t finger) {
   Text text{{finger == 0 ? "finger a" : "finger b"}};
   for (const Way& way : plan.ways) {
     if (way.finger != finger) continue;
@@ -120,7 +120,7 @@ Text finger_text(const Plan& plan, std::size_t finger) {
   return text;
 }
 
-Text line_text(const Plan& plan, const PairLine& line) {
+Text line_text(const AnswerPlan& plan, const PairLine& line) {
   const Answer& answer = *plan.figure->answer;
   Text text = line.name;
   text.push_back({" = 0: "});
@@ -140,20 +140,20 @@ Text line_text(const Plan& plan, const PairLine& line) {
 
 }  // namespace
 
-Text contact_name(const Plan& plan, const Way& way, std::size_t k) {
+Text contact_name(const AnswerPlan& plan, const Way& way, std::size_t k) {
   if (plan.has_pairs()) return symbol(way.finger == 0 ? "s" : "t", std::to_string(k));
   const char letter = static_cast<char>('a' + std::min<std::size_t>(k, 25));
   return symbol(std::string(1, letter), std::to_string(plan.number(way.placement)));
 }
 
-Text start_name(const Plan& plan, const Way& way) {
+Text start_name(const AnswerPlan& plan, const Way& way) {
   Text text = contact_name(plan, way, 0);
   const bool is_one_of_many = plan.has_noise() && !plan.has_pairs() && plan.placements().size() > 1;
   if (is_one_of_many) text.push_back({" " + percent(plan.placement(way).probability)});
   return text;
 }
 
-Text small_print(const Plan& plan) {
+Text small_print(const AnswerPlan& plan) {
   if (!plan.has_pairs()) return readings_text(plan.figure->answer->readings);
   if (!plan.shown) return {};
   const std::size_t count = plan.placements().size();
@@ -165,7 +165,7 @@ Text small_print(const Plan& plan) {
   return {{text}};
 }
 
-Legend legend_of(const Plan& plan) {
+Legend legend_of(const AnswerPlan& plan) {
   std::vector<LegendEntry> entries;
   if (plan.has_pairs()) {
     for (std::size_t finger = 0; finger < 2 && !plan.ways.empty(); ++finger) {

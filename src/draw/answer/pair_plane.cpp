@@ -26,7 +26,7 @@ constexpr std::string_view kOutside = "#f0f0f0";
 constexpr std::string_view kStretch = "#F0E442";
 
 /// At the right of the part, half-way up.
-Axes plane_of(const Plan& plan) {
+Axes plane_of(const AnswerPlan& plan) {
   const double side = kPlaneShare * plan.width();
   const double spare = drawing_height(plan.framing) - plan.framing.least_height;
   Axes axes;
@@ -38,7 +38,7 @@ Axes plane_of(const Plan& plan) {
 
 class PlanePicture {
  public:
-  PlanePicture(Svg& svg, const Plan& plan)
+  PlanePicture(Svg& svg, const AnswerPlan& plan)
       : svg_(svg), plan_(plan), axes_(plane_of(plan)), obstacles_(svg.width(), svg.height()) {}
 
   void draw() {
@@ -261,7 +261,7 @@ class PlanePicture {
   }
 
   Svg& svg_;
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   Axes axes_;
   Obstacles obstacles_;
   std::array<Interval, 2> room_;  // where first contacts may be
@@ -272,6 +272,6 @@ class PlanePicture {
 double plane_width(double page_width) { return kPlaneShare * page_width + kPlaneLeft + kPlaneRight; }
 double plane_height(double page_width) { return kPlaneShare * page_width + kPlaneAbove + kPlaneBelow; }
 
-void draw_pair_plane(Svg& svg, const Plan& plan) { PlanePicture(svg, plan).draw(); }
+void draw_pair_plane(Svg& svg, const AnswerPlan& plan) { PlanePicture(svg, plan).draw(); }
 
 }  // namespace rollfix::draw

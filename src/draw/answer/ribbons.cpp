@@ -15,7 +15,7 @@ constexpr double kStrongest = 0.6;  // ... and of the only one
 
 class Bands {
  public:
-  Bands(Svg& svg, const Plan& plan, const Scene& scene) : svg_(svg), plan_(plan), scene_(scene) {}
+  Bands(Svg& svg, const AnswerPlan& plan, const Scene& scene) : svg_(svg), plan_(plan), scene_(scene) {}
 
   void of_placements() {
     const auto broad = [](std::string_view colour, std::string_view dash = "") {
@@ -68,7 +68,7 @@ class Bands {
   }
 
   Svg& svg_;
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   const Scene& scene_;
 };
 
@@ -80,7 +80,7 @@ constexpr std::size_t kMostBins = 6000;
 
 class Ribbons {
  public:
-  Ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles,
+  Ribbons(Svg& svg, const AnswerPlan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles,
           std::size_t finger)
       : svg_(svg),
         plan_(plan),
@@ -158,7 +158,7 @@ class Ribbons {
   }
 
   Svg& svg_;
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   const Scene& scene_;
   const Clearance& clearance_;
   Obstacles& obstacles_;
@@ -170,7 +170,7 @@ class Ribbons {
 
 }  // namespace
 
-void draw_bands(Svg& svg, const Plan& plan, const Scene& scene) {
+void draw_bands(Svg& svg, const AnswerPlan& plan, const Scene& scene) {
   Bands bands(svg, plan, scene);
   if (plan.has_noise()) {
     bands.of_modes();
@@ -181,7 +181,8 @@ void draw_bands(Svg& svg, const Plan& plan, const Scene& scene) {
   }
 }
 
-void draw_ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles) {
+void draw_ribbons(Svg& svg, const AnswerPlan& plan, const Scene& scene, const Clearance& clearance,
+                  Obstacles& obstacles) {
   std::vector<Ribbons> fingers;
   double most = 0;
   for (std::size_t finger = 0; finger < plan.figure->answer->finger_count(); ++finger) {

@@ -30,21 +30,21 @@ constexpr double kMarginHeight = 0.2;      // of an enlarged square, for what ea
 constexpr double kHeadroom = 0.3;          // above the highest, for labels
 constexpr double kSmoothShare = 1.0 / 24;  // of what holds 95 %: cells of the density are not seen as steps
 
-const Density& density_of(const Plan& plan, std::size_t finger) {
+const Density& density_of(const AnswerPlan& plan, std::size_t finger) {
   return plan.figure->answer->weighing->density[finger];
 }
 
-bool has_density(const Plan& plan) {
+bool has_density(const AnswerPlan& plan) {
   return plan.has_noise() && !plan.placements().empty() && !density_of(plan, 0).empty();
 }
 
-std::size_t most_zooms(const Plan& plan) {
+std::size_t most_zooms(const AnswerPlan& plan) {
   if (!plan.has_pairs()) return kMostZooms;
   return plan.has_world() ? kMostPairZooms - 1 : kMostPairZooms;
 }
 
 /// The placements that are shown enlarged.
-std::vector<std::size_t> zoomed(const Plan& plan) {
+std::vector<std::size_t> zoomed(const AnswerPlan& plan) {
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < plan.placements().size() && chosen.size() < most_zooms(plan); ++k) {
     const Placement& placement = plan.placements()[k];
@@ -59,7 +59,7 @@ class DensityPlot {
  public:
   enum class Heights { mean, highest };  // of each column
 
-  DensityPlot(Svg& svg, const Plan& plan, const Axes& axes, std::size_t finger, Heights heights)
+  DensityPlot(Svg& svg, const AnswerPlan& plan, const Axes& axes, std::size_t finger, Heights heights)
       : svg_(svg), plan_(plan), axes_(axes), finger_(finger) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(axes.size.x() / kColumn)));
     const auto of_columns = heights == Heights::mean ? &binned : &draw::highest;
@@ -124,13 +124,13 @@ class DensityPlot {
   }
 
   Svg& svg_;
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   Axes axes_;
   std::size_t finger_;
   std::vector<double> heights_;
 };
 
-Text density_title(const Plan& plan, const Text& subject) {
+Text density_title(const AnswerPlan& plan, const Text& subject) {
   Text title = {{"density of "}};
   append(title, subject);
   if (!plan.part().unit().empty()) title.push_back({", 1/" + plan.part().unit()});
@@ -143,7 +143,7 @@ Axes with_heights(Axes axes, double most) {
 }
 
 /// The whole boundary.
-void draw_whole(Svg& svg, const Plan& plan, double top) {
+void draw_whole(Svg& svg, const AnswerPlan& plan, double top) {
   Axes axes;
   axes.corner = {kDensityLeft, top + kDensityAbove};
   axes.size = {plan.width() - kDensityLeft - kDensityRight, kDensityHeight};
@@ -172,7 +172,7 @@ void draw_whole(Svg& svg, const Plan& plan, double top) {
 }
 
 /// One placement, enlarged: a step at its own scale, whose unit is the same.
-void draw_zoom(Svg& svg, const Plan& plan, std::size_t placement, const Vec2& corner, double width) {
+void draw_zoom(Svg& svg, const AnswerPlan& plan, std::size_t placement, const Vec2& corner, double width) {
   const Interval& held = plan.placements()[placement].interval[0];
   Axes axes;
   axes.corner = corner;
@@ -190,7 +190,7 @@ void draw_zoom(Svg& svg, const Plan& plan, std::size_t placement, const Vec2& co
   svg.close_group();
 }
 
-void draw_zooms(Svg& svg, const Plan& plan, double top) {
+void draw_zooms(Svg& svg, const AnswerPlan& plan, double top) {
   const std::vector<std::size_t> chosen = zoomed(plan);
   const auto count = static_cast<double>(chosen.size());
   const double room = plan.width() - kDensityLeft - kDensityRight;
@@ -204,7 +204,7 @@ void draw_zooms(Svg& svg, const Plan& plan, double top) {
 // ---- of two fingers
 
 /// What one finger has by itself, along a side of an enlarged square.
-void draw_side(Svg& svg, const Plan& plan, const Axes& axes, std::size_t finger) {
+void draw_side(Svg& svg, const AnswerPlan& plan, const Axes& axes, std::size_t finger) {
   const double length = axes.size[finger == 0 ? 0 : 1];
   const Interval range = finger == 0 ? axes.x : axes.y;
   const auto count = static_cast<std::size_t>(length / 2);
@@ -222,7 +222,7 @@ void draw_side(Svg& svg, const Plan& plan, const Axes& axes, std::size_t finger)
   svg.polygon(area, filled(kFingerColours[finger], 0.3));
 }
 
-void draw_pair_zoom(Svg& svg, const Plan& plan, std::size_t index, const Vec2& corner, double side) {
+void draw_pair_zoom(Svg& svg, const AnswerPlan& plan, std::size_t index, const Vec2& corner, double side) {
   const Placement& placement = plan.placements()[index];
   Axes axes;
   axes.corner = corner;
@@ -267,18 +267,18 @@ void draw_pair_zoom(Svg& svg, const Plan& plan, std::size_t index, const Vec2& c
 constexpr double kPairZoomLeft = 56;
 constexpr double kPairZoomPitch = 76;  // between the squares
 
-double pair_zoom_side(const Plan& plan) {
+double pair_zoom_side(const AnswerPlan& plan) {
   const auto columns = static_cast<double>(most_zooms(plan));
   return (spread_width(plan) - kPairZoomLeft - kDensityRight - (columns - 1) * kPairZoomPitch) / columns;
 }
 
 }  // namespace
 
-double spread_width(const Plan& plan) {
+double spread_width(const AnswerPlan& plan) {
   return plan.has_pairs() && plan.has_world() ? plan.width() - world_width(plan) : plan.width();
 }
 
-double spread_height(const Plan& plan) {
+double spread_height(const AnswerPlan& plan) {
   if (!has_density(plan)) return 0;
   if (plan.has_pairs()) {
     return zoomed(plan).empty() ? 0 : kDensityAbove + pair_zoom_side(plan) + kDensityBelow;
@@ -287,7 +287,7 @@ double spread_height(const Plan& plan) {
   return zoomed(plan).empty() ? whole : whole + kDensityAbove + kZoomHeight + 0.6 * kDensityBelow;
 }
 
-void draw_spread(Svg& svg, const Plan& plan, double top) {
+void draw_spread(Svg& svg, const AnswerPlan& plan, double top) {
   if (!has_density(plan)) return;
   if (!plan.has_pairs()) {
     draw_whole(svg, plan, top);

@@ -36,7 +36,7 @@ constexpr double kGhostOpacity = 0.3;
 constexpr double kJawShare = 0.35;  // how much of a jaw is drawn, of the part's size
 constexpr std::string_view kWorldFinger = "#8a8a8a";
 
-std::vector<std::size_t> posed(const Plan& plan) {
+std::vector<std::size_t> posed_rows(const AnswerPlan& plan) {
   std::vector<std::size_t> chosen;
   const std::size_t first = plan.world_placement();
   for (std::size_t k = 0; k < plan.placements().size() && chosen.size() < kMostPoses; ++k) {
@@ -68,8 +68,8 @@ std::vector<Vec2> shape_of(const Finger& finger, double part_size) {
 
 class WorldPicture {
  public:
-  WorldPicture(Svg& svg, const Plan& plan, const Box& area)
-      : svg_(svg), plan_(plan), log_(*plan.figure->log), shown_(posed(plan)) {
+  WorldPicture(Svg& svg, const AnswerPlan& plan, const Box& area)
+      : svg_(svg), plan_(plan), log_(*plan.figure->log), shown_(posed_rows(plan)) {
     const Part& part = plan.part();
     size_ = plan.framing.part.sizes().maxCoeff();
     outline_ = trace(part, 1e-4 * size_).points;
@@ -367,7 +367,7 @@ class WorldPicture {
   }
 
   Svg& svg_;
-  const Plan& plan_;
+  const AnswerPlan& plan_;
   const Log& log_;
   std::vector<std::size_t> shown_;  // placements; the last is the one that is looked at
   std::vector<Vec2> outline_;
@@ -381,8 +381,8 @@ class WorldPicture {
 
 }  // namespace
 
-double world_width(const Plan& plan) { return plan.has_world() ? kWorldShare * plan.width() : 0; }
+double world_width(const AnswerPlan& plan) { return plan.has_world() ? kWorldShare * plan.width() : 0; }
 
-void draw_world(Svg& svg, const Plan& plan, const Box& area) { WorldPicture(svg, plan, area).draw(); }
+void draw_world(Svg& svg, const AnswerPlan& plan, const Box& area) { WorldPicture(svg, plan, area).draw(); }
 
 }  // namespace rollfix::draw

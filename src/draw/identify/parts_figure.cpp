@@ -42,7 +42,7 @@ class Panel {
   Svg draw() {
     header();
     keep_free();
-    const Plan& plan = panel_.plan;
+    const AnswerPlan& plan = panel_.plan;
     draw_material(svg_, scene_, plan.part());
     draw_bands(svg_, plan, scene_);
     draw_boundary(svg_, scene_, plan.part());

@@ -12,31 +12,31 @@
 namespace rollfix::draw {
 namespace {
 
-constexpr double kFaint = 0.9;          // strength that is seen to be less than that of others
-constexpr std::size_t kMostNames = 30;  // more never fit
-constexpr double kLeastRest = 1e-3;     // probability: less is not worth a word
+constexpr double kFaint = 0.9;              // strength that is seen to be less than that of others
+constexpr std::size_t kMostNames = 30;      // more never fit
+constexpr double kLeastRestOfParts = 1e-3;  // probability: less is not worth a word
 
 double note_width(const std::string& text) { return text_width({{text}}, kNoteSize); }
 
 /// With noise a place that is hardly probable is drawn, but doesn't count.
-std::size_t that_count(const Plan& plan) {
+std::size_t that_count(const AnswerPlan& plan) {
   const Verdict& verdict = plan.figure->answer->verdict;
   const std::size_t all = plan.placements().size();
   if (verdict.name == Verdict::unique) return std::min<std::size_t>(all, 1);
   return verdict.name == Verdict::ambiguous ? std::min(all, verdict.places) : all;
 }
 
-bool is_anywhere(const Plan& plan, std::size_t k, std::size_t finger) {
+bool is_anywhere(const AnswerPlan& plan, std::size_t k, std::size_t finger) {
   return plan.has_noise() ? plan.is_anywhere(k, finger) : plan.placements()[k].whole_loop[finger];
 }
 
 /// With noise as many digits as are known of both ends of a roll.
-std::string place_text(const Plan& plan, double s, double sd) {
+std::string place_text(const AnswerPlan& plan, double s, double sd) {
   return " " + (plan.has_noise() ? as_sure_as(s, sd) : pretty_on(plan.part(), s, 5));
 }
 
 /// Where a first contact was.
-std::string start_text(const Plan& plan, std::size_t k, std::size_t finger, double sd) {
+std::string start_text(const AnswerPlan& plan, std::size_t k, std::size_t finger, double sd) {
   const Placement& placement = plan.placements()[k];
   const Interval& extent = placement.extent[finger];
   if (is_anywhere(plan, k, finger)) return " anywhere";
@@ -46,7 +46,7 @@ std::string start_text(const Plan& plan, std::size_t k, std::size_t finger, doub
                      pretty_on(plan.part(), plan.part().boundary().base(extent.hi)));
 }
 
-std::string probability_text(const Plan& plan, std::size_t k) {
+std::string probability_text(const AnswerPlan& plan, std::size_t k) {
   const bool is_one_of_many = plan.has_noise() && plan.placements().size() > 1;
   return is_one_of_many ? " " + percent(plan.placements()[k].probability) + "," : "";
 }
@@ -68,7 +68,7 @@ Text fitting(const std::vector<Text>& pieces, double room) {
   return text;
 }
 
-Text placement_text(const Plan& plan, std::size_t k, double room) {
+Text placement_text(const AnswerPlan& plan, std::size_t k, double room) {
   const Placement& placement = plan.placements()[k];
   const double sd = plan.has_noise() ? std::max(placement.sd[0], placement.end_sd[0]) : 0;
   Text start = contact_name(plan, {k, 0}, 0);
@@ -84,7 +84,7 @@ Text placement_text(const Plan& plan, std::size_t k, double room) {
   return fitting({start, end, kind_text(placement)}, room);
 }
 
-Text pair_text(const Plan& plan, std::size_t k, double room) {
+Text pair_text(const AnswerPlan& plan, std::size_t k, double room) {
   const Placement& placement = plan.placements()[k];
   std::vector<Text> pieces{{{fmt::format("{}:{} ", k, probability_text(plan, k))}}, {{", "}}};
   for (const std::size_t finger : {0U, 1U}) {
@@ -106,12 +106,12 @@ std::vector<std::string> left_out(const PartsPlan& plan) {
     sayings.push_back(fmt::format("... and {} more", figure.parts.size() - drawn) +
                       (plan.has_noise() ? ", together " + percent(together) : ""));
   }
-  if (plan.has_noise() && figure.rest >= kLeastRest) sayings.push_back("all others: " + percent(figure.rest));
+  if (plan.has_noise() && figure.rest >= kLeastRestOfParts) sayings.push_back("all others: " + percent(figure.rest));
   return sayings;
 }
 
 bool shows_band(const PanelPlan& panel) {
-  const Plan& plan = panel.plan;
+  const AnswerPlan& plan = panel.plan;
   for (std::size_t k = 0; plan.has_noise() && k < plan.placements().size(); ++k) {
     for (std::size_t finger = 0; finger < plan.figure->answer->finger_count(); ++finger) {
       if (plan.held(k, finger).width() * panel.scale >= kVisibleBand) return true;
@@ -121,7 +121,7 @@ bool shows_band(const PanelPlan& panel) {
 }
 
 bool has_faint_roll(const PanelPlan& panel) {
-  const Plan& plan = panel.plan;
+  const AnswerPlan& plan = panel.plan;
   for (std::size_t k = 0; plan.has_noise() && k < plan.placements().size(); ++k) {
     if (plan.strength(k) < kFaint) return true;
   }
@@ -143,14 +143,14 @@ std::vector<std::string> key(const PartsPlan& plan) {
 }
 
 constexpr std::size_t kMostPanels = 12;
-constexpr std::size_t kMostColumns = 3;
+constexpr std::size_t kMostPanelColumns = 3;
 constexpr double kLeastPage = 640;    // pixels
 constexpr double kLeastPanel = 210;   // wide, if there is more than one in a row
 constexpr double kGap = 12;           // between panels
 constexpr double kMostRatio = 5;      // of sizes that are seen at one scale
 constexpr double kMostHeight = 440;   // of a drawing
 constexpr double kMostSlender = 0.8;  // likewise, as a fraction of its width
-constexpr double kLeastHeight = 70;
+constexpr double kLeastPanelHeight = 70;
 constexpr double kHeader = 42;         // the name and a line below it
 constexpr double kHeaderLine = 14;     // one more line
 constexpr double kProbabilityBar = 7;  // between name and line
@@ -178,11 +178,11 @@ void require_valid(const PartsFigure& figure) {
 std::size_t columns_for(std::size_t panels, double width) {
   const auto fitting = static_cast<std::size_t>((width - 2 * kPageMargin + kGap) / (kLeastPanel + kGap));
   const std::size_t best = panels == 4 ? 2 : panels;  // rather two rows of two than one panel by itself
-  return std::max<std::size_t>(1, std::min({best, fitting, kMostColumns}));
+  return std::max<std::size_t>(1, std::min({best, fitting, kMostPanelColumns}));
 }
 
 /// Of a few rolls beside a small part.
-void make_small(Plan& plan) {
+void make_small(AnswerPlan& plan) {
   const int count = plan.lanes.count * std::max(plan.rolls[0].lanes, plan.rolls[1].lanes);
   plan.most = kMostInPanel;
   if (!plan.has_pairs()) {
@@ -245,14 +245,14 @@ std::vector<RowPlan> rows_of(const PartsPlan& plan) {
     RowPlan& row = rows[k / plan.columns];
     row.header = std::max(row.header, header + (panel.entry->congruent.empty() ? 0 : kHeaderLine));
     const double drawing = size_at(panel.plan.framing, panel.scale).y() + (plan.one_scale ? 0 : kScaleBarHeight);
-    row.body = std::max(row.body, std::max(drawing, kLeastHeight) + panel.legend_height());
+    row.body = std::max(row.body, std::max(drawing, kLeastPanelHeight) + panel.legend_height());
   }
   return rows;
 }
 
 }  // namespace
 
-Legend panel_legend(const Plan& plan, double width) {
+Legend panel_legend(const AnswerPlan& plan, double width) {
   const double room = Legend::room(width);
   std::vector<LegendEntry> entries;
   const std::size_t listed = plan.has_labels() ? std::min(that_count(plan), plan.most.listed) : 0;
@@ -264,7 +264,7 @@ Legend panel_legend(const Plan& plan, double width) {
   return {std::move(entries), width};
 }
 
-std::string places_text(const Plan& plan) {
+std::string places_text(const AnswerPlan& plan) {
   const Answer& answer = *plan.figure->answer;
   const std::size_t count = that_count(plan);
   std::string text = counted(count, "place", "places");

@@ -16,7 +16,7 @@ namespace rollfix::draw {
 struct PanelPlan {
   const PartsFigure::Entry* entry = nullptr;
   std::unique_ptr<AnswerFigure> figure;  // of the plan
-  Plan plan;
+  AnswerPlan plan;
   double scale = 1;  // pixels for each unit of the outline
   bool is_likeliest = false;
   Legend legend;  // its placements
@@ -58,10 +58,10 @@ PartsPlan plan_of(const PartsFigure& figure);
 inline constexpr double kNoteSize = 10;  // of all but names, pixels
 
 /// The first placements, each with its start and its end.
-Legend panel_legend(const Plan& plan, double width);
+Legend panel_legend(const AnswerPlan& plan, double width);
 
 /// "2 places", "any place", and what is wrong with them.
-std::string places_text(const Plan& plan);
+std::string places_text(const AnswerPlan& plan);
 
 /// "can't be told from a, b and 3 more", as many names as there is room for.
 std::string congruent_text(const std::vector<std::string>& names, double width);

@@ -18,6 +18,9 @@
 namespace rollfix::dxf {
 namespace {
 
+constexpr const char* kCutShort =
+    "the file ends here, expected a last line EOF: it has been cut short, export it again";
+
 std::string value_shown(const Tag& tag) {
   if (const auto* text = std::get_if<std::string_view>(&tag.value)) return shown(*text);
   if (const auto* number = std::get_if<double>(&tag.value)) return fmt::format("{}", *number);
@@ -41,7 +44,9 @@ double real_of(const Tag& tag, const TagReader& reader) {
   double number = 0;
   if (const auto* text = std::get_if<std::string_view>(&tag.value)) {
     const std::optional<double> read = parse_number(*text);
-    if (!read) refuse(reader, tag.place, fmt::format("'{}' is not a number (group code {})", shown(*text), tag.code));
+    if (!read)
+      refuse(reader, tag.place,
+             fmt::format("expected a number behind group code {}, found '{}'", tag.code, shown(*text)));
     number = *read;
   } else if (const auto* real = std::get_if<double>(&tag.value)) {
     number = *real;
@@ -50,8 +55,8 @@ double real_of(const Tag& tag, const TagReader& reader) {
   }
   if (!(std::abs(number) <= kMostCoordinate)) {
     refuse(reader, tag.place,
-           fmt::format("'{}' (group code {}) is out of range, expected a finite number of at most {}", value_shown(tag),
-                       tag.code, kMostCoordinate));
+           fmt::format("expected a finite number of at most {} behind group code {}, found '{}'", kMostCoordinate,
+                       tag.code, value_shown(tag)));
   }
   return number;
 }
@@ -64,7 +69,8 @@ std::int64_t whole_of(const Tag& tag, const TagReader& reader) {
     const auto result = std::from_chars(text->data(), end, whole);
     if (result.ec == std::errc() && result.ptr == end) return whole;
   }
-  refuse(reader, tag.place, fmt::format("'{}' is not a whole number (group code {})", value_shown(tag), tag.code));
+  refuse(reader, tag.place,
+         fmt::format("expected a whole number behind group code {}, found '{}'", tag.code, value_shown(tag)));
 }
 
 namespace {
@@ -159,7 +165,7 @@ class AsciiTags : public TagReader {
  private:
   std::string_view take_line() {
     if (cursor_ == end_) {
-      refuse(*this, line_, "the file ends here, expected more up to 0 EOF: it has been cut short");
+      refuse(*this, line_, kCutShort);
     }
     const auto rest = static_cast<std::size_t>(end_ - cursor_);
     const auto* const newline = static_cast<const char*>(std::memchr(cursor_, newline_, rest));
@@ -246,7 +252,7 @@ class BinaryTags : public TagReader {
  private:
   std::string_view take(std::size_t count) {
     if (bytes_.size() - at_ < count) {
-      refuse(*this, bytes_.size(), "the file ends here, expected more up to 0 EOF: it has been cut short");
+      refuse(*this, bytes_.size(), kCutShort);
     }
     const std::string_view taken = bytes_.substr(at_, count);
     at_ += count;

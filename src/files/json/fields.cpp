@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kPoint = "a point as in [1.5, 2]";
 
 /// A value as it would stand in a file, cut short.
-std::string shown(const Json& value) {
+std::string found_text(const Json& value) {
   constexpr std::size_t kMost = 40;
   if (value.is_object()) return "an object";
   if (value.is_array() && value.size() > 4) return fmt::format("an array of {}", value.size());
@@ -74,7 +74,7 @@ Json parse_json(std::string_view text, const std::string& name, const std::strin
 }
 
 JsonFields::JsonFields(const Json& object, std::string place) : object_(object), place_(std::move(place)) {
-  if (!object_.is_object()) refuse(fmt::format("expected an object as in {{...}}, found {}", shown(object_)));
+  if (!object_.is_object()) refuse(fmt::format("expected an object as in {{...}}, found {}", found_text(object_)));
 }
 
 void JsonFields::refuse(const std::string& message) const { throw InputError(fmt::format("{}: {}", place_, message)); }
@@ -94,14 +94,14 @@ const Json& JsonFields::get(const char* name, const char* expected) const {
 
 std::string JsonFields::text(const char* name) const {
   const Json& value = get(name, "a text");
-  if (!value.is_string()) refuse(fmt::format("{}: expected a text in quotes, found {}", name, shown(value)));
+  if (!value.is_string()) refuse(fmt::format("{}: expected a text in quotes, found {}", name, found_text(value)));
   return value.get<std::string>();
 }
 
 bool JsonFields::flag(const char* name, bool otherwise) const {
   if (!has(name)) return otherwise;
   const Json& value = object_[name];
-  if (!value.is_boolean()) refuse(fmt::format("{}: expected true or false, found {}", name, shown(value)));
+  if (!value.is_boolean()) refuse(fmt::format("{}: expected true or false, found {}", name, found_text(value)));
   return value.get<bool>();
 }
 
@@ -122,7 +122,7 @@ double JsonFields::angle(const char* name, double otherwise) const {
   if (!value.is_string()) return number_of(value, name);
   const std::optional<double> result = parse_angle(value.get<std::string>());
   if (!result || !std::isfinite(*result)) {
-    refuse(fmt::format("{}: expected an angle as in 1.27 or \"73deg\", found {}", name, shown(value)));
+    refuse(fmt::format("{}: expected an angle as in 1.27 or \"73deg\", found {}", name, found_text(value)));
   }
   return *result;
 }
@@ -147,22 +147,22 @@ std::vector<double> JsonFields::numbers(const char* name) const {
 
 const Json& JsonFields::array(const char* name, const char* expected) const {
   const Json& value = get(name, expected);
-  if (!value.is_array()) refuse(fmt::format("{}: expected {}, found {}", name, expected, shown(value)));
+  if (!value.is_array()) refuse(fmt::format("{}: expected {}, found {}", name, expected, found_text(value)));
   return value;
 }
 
 double JsonFields::number_of(const Json& value, const std::string& name) const {
-  if (!value.is_number()) refuse(fmt::format("{}: expected a number, found {}", name, shown(value)));
+  if (!value.is_number()) refuse(fmt::format("{}: expected a number, found {}", name, found_text(value)));
   const auto number = value.get<double>();
   if (!(std::abs(number) <= kMostCoordinate)) {
-    refuse(fmt::format("{}: expected a number of at most {}, found {}", name, kMostCoordinate, shown(value)));
+    refuse(fmt::format("{}: expected a number of at most {}, found {}", name, kMostCoordinate, found_text(value)));
   }
   return number;
 }
 
 Vec2 JsonFields::point_of(const Json& value, const std::string& name) const {
   if (!value.is_array() || value.size() != 2) {
-    refuse(fmt::format("{}: expected {}, found {}", name, kPoint, shown(value)));
+    refuse(fmt::format("{}: expected {}, found {}", name, kPoint, found_text(value)));
   }
   const double x = number_of(value[0], name);
   return {x, number_of(value[1], name)};
