@@ -9,6 +9,7 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/rolling.hpp"
 
 // Notation:
 //   sd              of a row's turn: `errors`; of readings u and psi the contact's error counts by how the part bends
@@ -19,6 +20,7 @@
 //   ramp            how much of a lap's drift a row has
 //   V               the drift's variance beforehand; drift = (both + first ramps) / (ramps + sd^2 / V), sums of what a
 //                   fit leaves of the rows and of the ramp: `round_course`, FitSums
+//   chord           of an arc over l that turns by t: l sin(t / 2) / (t / 2); added up the rows' path: `dead_reckoned`
 // Follows docs/teach.md, "What is made of the rows" and "Closing".
 namespace rollfix {
 namespace {
@@ -106,6 +108,12 @@ RoundCourse without(double drift, const FeltRoll& roll, const TurningRuns& lap, 
   const TurningRun& run = round.rows.runs.front();
   round.course = {roll.is_noisy() ? smooth_round(run, turn, roll.errors(), sums) : fit_round(run, turn, roll.how())};
   return round;
+}
+
+/// The chord of an arc of this length that turns by this angle.
+double chord_of(double length, double turn) {
+  const double half = 0.5 * turn;
+  return std::abs(half) < 1e-8 ? length : length * std::sin(half) / half;
 }
 
 }  // namespace
@@ -256,6 +264,44 @@ RoundCourse round_course(const FeltRoll& roll, const TurningRuns& lap, int turns
   without(first, roll, lap, turns, sums);
   const double drift = (sums.both + first * sums.ramps) / (sums.ramps + row_variance / variance);
   return without(drift, roll, lap, turns, sums);
+}
+
+std::vector<ReckonedRow> dead_reckoned(const Log& log, const std::optional<Finger>& finger) {
+  const bool is_contact = log.kind == LogKind::contact;
+  if (log.fingers.size() > 1) throw InputError(fmt::format("{}: expected the log of one finger, found two", log.name));
+  if (is_contact && (!finger || !finger->is_disk())) {
+    throw InputError(fmt::format("{}: a log of u and psi takes a disk to add up, found none", log.name));
+  }
+  const FingerRows& felt = log.fingers[0];
+  std::vector<Reading> readings = readings_as_given(log, finger ? std::vector<Finger>{*finger} : std::vector<Finger>{});
+  if (!is_contact) readings.insert(readings.begin(), Reading{0, 0});
+  const bool backwards = readings.back().length[0] < 0;
+  if (backwards) std::reverse(readings.begin(), readings.end());
+
+  ReckonedRow row;
+  const double first_length = readings.front().length[0], first_turn = readings.front().turn;
+  double direction = 0;
+  if (is_contact) {
+    const std::size_t k = backwards ? log.rows() - 1 : 0;
+    const double facing = felt.u[k] + felt.psi[k];
+    direction = facing - 0.5 * std::numbers::pi;
+    const bool has_place = !felt.x.empty() && !felt.y.empty();
+    if (has_place) {
+      row.point = Vec2(felt.x[k], felt.y[k]) + finger->length_per_u() * Vec2(std::cos(facing), std::sin(facing));
+    }
+  }
+  std::vector<ReckonedRow> rows;
+  for (const Reading& reading : readings) {
+    const double s = reading.length[0] - first_length, angle = direction + reading.turn - first_turn;
+    if (!rows.empty()) {
+      const double middle = 0.5 * (row.angle + angle);
+      row.point += chord_of(s - row.s, angle - row.angle) * Vec2(std::cos(middle), std::sin(middle));
+    }
+    row.s = s;
+    row.angle = angle;
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 }  // namespace rollfix

@@ -86,4 +86,7 @@ struct RoundCourse {
 /// from the shape as well as they can, by least squares, given how large it can be. `sums` are of this alone.
 RoundCourse round_course(const FeltRoll& roll, const TurningRuns& lap, int turns, double turn_gap, FitSums& sums);
 
+/// What was taught, for the user to read.
+void add_notes(const FeltRoll& roll, Taught& taught);
+
 }  // namespace rollfix

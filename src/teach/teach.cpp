@@ -13,7 +13,6 @@
 #include "rollfix/pulse.hpp"
 #include "teach/felt_roll.hpp"
 #include "teach/lap.hpp"
-#include "teach/teach_notes.hpp"
 
 // Notation:
 //   Theta(s), p(s)  the tangent's angle by length rolled and the path that it makes: TurningCourse, TurningPath

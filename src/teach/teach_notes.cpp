@@ -1,4 +1,4 @@
-#include "teach/teach_notes.hpp"
+#include "teach/felt_roll.hpp"
 
 #include <fmt/format.h>
 
