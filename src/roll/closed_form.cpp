@@ -1,4 +1,4 @@
-#include "roll/closed_form.hpp"
+#include "roll/motion.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>

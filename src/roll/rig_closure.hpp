@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "roll/closed_form.hpp"
+#include "roll/motion.hpp"
 #include "roll/track.hpp"
 #include "rollfix/rolling.hpp"
 
