@@ -1,5 +1,5 @@
-#include "plan/motion_rows.hpp"
 #include "log/wrapping.hpp"
+#include "plan/conditions.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "plan/conditions.hpp"
-#include "plan/motion_rows.hpp"
 #include "plan/path_search.hpp"
 #include "plan/plan_requirements.hpp"
 #include "plan/squeeze.hpp"
