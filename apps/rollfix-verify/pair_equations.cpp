@@ -1,4 +1,4 @@
-#include "pair_equations.hpp"
+#include "pair_boxes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pair_line.hpp"
+#include "pair_boxes.hpp"
 
 #include <algorithm>
 #include <cmath>
