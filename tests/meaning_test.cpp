@@ -6,9 +6,9 @@
 #include "catalog/on_catalog.hpp"
 #include "catalogs.hpp"
 #include "rollfix/outline.hpp"
-#include "watch/kept_samples.hpp"
+#include "watch/meaning.hpp"
 
-namespace kept_samples_test {
+namespace meaning_test {
 namespace {
 
 TEST(KeptSamples, are_every_so_many_of_the_whole_roll) {
@@ -60,4 +60,4 @@ TEST(KeptSamples, of_increments_leave_the_place_as_sure_as_all_of_them) {
 }
 
 }  // namespace
-}  // namespace kept_samples_test
+}  // namespace meaning_test

@@ -10,7 +10,7 @@
 #include "catalog/on_catalog.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
-#include "watch/kept_samples.hpp"
+#include "watch/meaning.hpp"
 #include "watch/rolls.hpp"
 
 namespace rollfix {

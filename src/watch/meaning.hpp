@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "rollfix/log.hpp"
+#include "rollfix/solve.hpp"
 #include "rollfix/tracker.hpp"
 
 namespace rollfix {
@@ -48,5 +51,26 @@ using MakeMeaning = std::function<std::unique_ptr<Meaning>(LogKind kind)>;
 std::unique_ptr<Meaning> meaning_on_part(const Followed& followed, LogKind kind);
 /// Of a finger with skin beside a wheel without. REQUIRES options.wheel and options.name_b.
 std::unique_ptr<Meaning> meaning_beside_wheel(const Followed& followed);
+
+/// Samples of a roll, evenly spread, not too many: of every so many the first.
+class KeptSamples {
+ public:
+  void add(const Sample& sample);
+  /// This one as well, whether it is one of so many or not.
+  void end_with(const Sample& sample);
+  std::size_t size() const { return kept_.size(); }
+  /// As one sample of the roll stands for so many.
+  std::size_t each() const { return every_; }
+  /// The log that they are of, as the user gave it.
+  Log log(LogKind kind, const Part& part, const std::vector<Finger>& fingers = {}, const Noise& noise = {}) const;
+
+ private:
+  std::vector<Sample> kept_;
+  std::size_t every_ = 1;
+  std::size_t seen_ = 0;
+};
+
+/// What is asked of all samples together.
+Problem problem_of(const Followed& followed, LogKind kind, const KeptSamples& kept);
 
 }  // namespace rollfix
