@@ -9,6 +9,8 @@
 #include "centre_tree.hpp"
 #include "document.hpp"
 
+// What a certificate of a hold states of fingers, wheels and instants, read; and what of it can't be meant, or is so
+// exact that doubles would decide: docs/certificates.md, "Holds".
 namespace rollfix_verify {
 namespace {
 

@@ -18,6 +18,9 @@
 #include "text/text.hpp"
 #include "trace.hpp"
 
+// Touches and the poses that fit them, in the world; below, with noise, how dense the part's heading is. Notation:
+//   w_k, m_k, sd_k   terms of a pose's heading, radians: MixtureTerm, of all together 1
+//   p(phi)           sum of w_k / (sqrt(2 pi) sd_k) exp(-((phi - m_k) / sd_k)^2 / 2), per degree: `heading_density_at`
 namespace rollfix::draw {
 namespace {
 

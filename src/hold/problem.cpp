@@ -14,6 +14,11 @@
 #include "rollfix/belief.hpp"
 #include "rollfix/error.hpp"
 
+// A problem's logs by number, what of it is refused, and what a mirror shows of it. Notation of wheels and fingers that
+// can't be where they are:
+//   depth      how far two bodies are in each other at a row, whatever the part does: `depth_of`
+//   delta      how far x and y may be off, a wheel's radius as well; eps: of psi, of what is round 0: Body
+//   slack      delta_1 + delta_2 + eps |q_1 - q_2|, with noise kTouchSigmas of the root of their squares: `slack_of`
 namespace rollfix::hold {
 namespace {
 
