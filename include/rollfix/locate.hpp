@@ -61,6 +61,11 @@ enum class Kind {
 };
 const char* name_of(Kind kind);
 
+/// With noise a place, a pose or a part of this probability is the only one, `unique`; ...
+inline constexpr double kSureProbability = 0.95;
+/// ... and one of less than this does not count among those that remain.
+inline constexpr double kLeastProbability = 0.01;
+
 /// What all placements together come to.
 struct Verdict {
   enum Name {
@@ -106,8 +111,8 @@ struct PoseResidual {
   double turn = 0;    // radians: how far the headings are apart that the contacts' normals ask for
 };
 
-/// One answer: a connected set of first contacts on which every |f_k| is within the tolerance.
-struct Placement {
+/// Where a connected set of first contacts is on which every |f_k| is within the tolerance.
+struct PlaceFound {
   Kind kind = Kind::crossing;
   PerFinger<double> start;     // s of the first contact, in [0, P): the first root, else where the residual is least;
                                // with noise as of a Mode: where the density is largest
@@ -124,10 +129,11 @@ struct Placement {
   std::vector<PerFinger<double>> family;  // of two fingers' stretch: a line of pairs that runs through all of it,
                                           // unwrapped; it may go over parts of itself again where branches meet
   double family_error = 0;                // no pair of the stretch is further from that line, length
+  bool clockwise = false;                 // of Problem::either_way: for lengths that count clockwise
+};
 
-  bool clockwise = false;  // of Problem::either_way: for lengths that count clockwise
-
-  // With noise: what all samples together say of it.
+/// What all samples together say of a place, where noise is stated.
+struct PlaceWeight {
   double probability = std::numeric_limits<double>::quiet_NaN();  // of the first contacts being in here; NaN: no noise
   PerFinger<double> mean;                                         // of them, given that they are in here; in [0, P)
   PerFinger<double> sd;                                           // length
@@ -135,13 +141,18 @@ struct Placement {
   PerFinger<Interval> interval;  // holds 95 % of this placement's probability; lo in [0, P), hi may exceed P
   PerFinger<double> end_mean;    // of where the contacts are now, in [0, P)
   PerFinger<double> end_sd;
+};
 
-  // From a log that has the fingers' orientation and place in the world.
+/// What a log that has the fingers' orientation and place in the world says besides.
+struct PlacePoses {
   std::vector<Pose> pose;                     // the part's, at each row
   std::optional<PoseResidual> pose_residual;  // over all rows
   bool is_contradicted = false;           // without noise: by other rows of the log, or by the contacts in the world
   std::optional<PoseSpread> pose_spread;  // with noise: at the first contacts
+};
 
+/// One answer: a connected set of first contacts, how probable it is, and where the part is then.
+struct Placement : PlaceFound, PlaceWeight, PlacePoses {
   /// Whether the first contacts can have been at s, across s = 0 as anywhere else: of each finger in `interval` with
   /// noise, else in `extent`, both with their ends and rounding. Any s that names a place of a closed boundary does.
   bool contains(const Boundary& boundary, const PerFinger<double>& s) const;

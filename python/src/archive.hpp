@@ -165,13 +165,25 @@ void visit(A& a, Sensitivity& v) {
   all(a, per_turn, per_length, per_facing);
 }
 template <class A>
-void visit(A& a, Placement& v) {
+void visit(A& a, PlaceFound& v) {
   auto& [kind, start, end, extent, whole_loop, roots, error, residual, point, tangent, sensitivity, pivot, family,
-         family_error, clockwise, probability, mean, sd, covariance, interval, end_mean, end_sd, pose, pose_residual,
-         is_contradicted, pose_spread] = v;
+         family_error, clockwise] = v;
   all(a, kind, start, end, extent, whole_loop, roots, error, residual, point, tangent, sensitivity, pivot, family,
-      family_error, clockwise, probability, mean, sd, covariance, interval, end_mean, end_sd, pose, pose_residual,
-      is_contradicted, pose_spread);
+      family_error, clockwise);
+}
+template <class A>
+void visit(A& a, PlaceWeight& v) {
+  auto& [probability, mean, sd, covariance, interval, end_mean, end_sd] = v;
+  all(a, probability, mean, sd, covariance, interval, end_mean, end_sd);
+}
+template <class A>
+void visit(A& a, PlacePoses& v) {
+  auto& [pose, pose_residual, is_contradicted, pose_spread] = v;
+  all(a, pose, pose_residual, is_contradicted, pose_spread);
+}
+template <class A>
+void visit(A& a, Placement& v) {
+  all(a, static_cast<PlaceFound&>(v), static_cast<PlaceWeight&>(v), static_cast<PlacePoses&>(v));
 }
 template <class A>
 void visit(A& a, DroppedCounts& v) {

@@ -10,7 +10,7 @@
 namespace rollfix::belief {
 
 // A hypothesis with less probability is not waited for, nor counted among those that remain.
-inline constexpr double kHypothesisCounts = 0.01;
+inline constexpr double kHypothesisCounts = kLeastProbability;
 
 /// On which the fingers roll on: each by so many times a length, the larger of which is 1, over which all hypotheses
 /// that count can roll.

@@ -24,9 +24,9 @@ inline constexpr double kMostExcess = 2.5;
 // The farthest of the errors that are let pass, in standard deviations.
 inline constexpr double kFarthest = 4.5;
 // A place with this probability is the only one.
-inline constexpr double kCertain = 0.95;
+inline constexpr double kCertain = kSureProbability;
 // One with less than this is not counted among those that remain.
-inline constexpr double kCounts = 0.01;
+inline constexpr double kCounts = kLeastProbability;
 // Of samples that are asked to be robust, this share is taken to be stray.
 inline constexpr double kOutlierShare = 0.02;
 // The samples' cost is beyond what chance makes of it: this many standard deviations of a chi-square.
@@ -35,7 +35,7 @@ inline constexpr double kExcessSigma = Fit::kMostSigmas;
 inline constexpr double kMostAlike = 0.95;
 
 // The scale of lengths is not believed beyond these many standard deviations, nor beyond this share.
-inline constexpr double kMostSigmas = 8;
+inline constexpr double kMostErrorSigmas = 8;
 inline constexpr double kMostScale = 0.5;
 // Two peaks are two places when the density on the best way between them is below exp(-3) = 5 % of the lower one.
 inline constexpr double kValley = 3;
@@ -176,7 +176,7 @@ inline void add_trend(const Trend& trend, double step, Fit& fit) {
 inline double peak_of(double inverse) { return std::sqrt(inverse / (2 * std::numbers::pi)); }
 
 /// How far a scale of lengths is believed, given its variance.
-inline double most_scale(double variance) { return std::min(kMostScale, kMostSigmas * std::sqrt(variance)); }
+inline double most_scale(double variance) { return std::min(kMostScale, kMostErrorSigmas * std::sqrt(variance)); }
 
 /// A row that is right, or stray: then it says nothing.
 struct Mixture {

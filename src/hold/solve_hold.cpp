@@ -18,8 +18,7 @@ namespace rollfix {
 namespace hold {
 namespace {
 
-constexpr double kSureShare = 0.95;  // so probable the first answer is the only one
-constexpr double kFreeHold = 0.05;   // of the perimeter: without noise what is confined no better is a continuum
+constexpr double kFreeHold = 0.05;  // of the perimeter: without noise what is confined no better is a continuum
 
 class HoldSolver {
  public:
@@ -108,7 +107,7 @@ class HoldSolver {
       return;
     }
     if (placements.empty()) return;
-    const bool is_sure = placements.size() == 1 || placements.front().probability >= kSureShare;
+    const bool is_sure = placements.size() == 1 || placements.front().probability >= kSureProbability;
     verdict.places = is_sure ? 1 : placements.size();
     verdict.stretches = 0;
     for (std::size_t k = 0; k < verdict.places; ++k) verdict.stretches += placements[k].continuum ? 1 : 0;

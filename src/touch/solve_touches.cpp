@@ -20,9 +20,6 @@ namespace rollfix {
 namespace touch {
 namespace {
 
-// One pose is the answer where it is at least so probable.
-constexpr double kSure = 0.95;
-
 /// Places without normals, within their tolerances of each other: they say what one says, any place and any heading.
 bool are_at_one_place(const AllContacts& contacts) {
   const Measured& first = contacts.each.front();
@@ -40,7 +37,7 @@ void conclude(TouchAnswer& answer) {
     verdict.name = Verdict::undecided;
     return;
   }
-  if (answer.anywhere > 1 - kSure) {
+  if (answer.anywhere > 1 - kSureProbability) {
     verdict.name = Verdict::unobservable;
     return;
   }
@@ -48,7 +45,7 @@ void conclude(TouchAnswer& answer) {
     verdict.name = Verdict::inconsistent;
     return;
   }
-  const bool is_sure = poses.size() == 1 || poses.front().probability >= kSure;
+  const bool is_sure = poses.size() == 1 || poses.front().probability >= kSureProbability;
   const std::size_t places = is_sure ? 1 : poses.size();
   const auto stretches =
       static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),

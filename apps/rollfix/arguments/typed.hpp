@@ -9,6 +9,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/question.hpp"
 #include "rollfix/units.hpp"
+#include "text/number.hpp"  // IWYU pragma: export  written_length, written_angle
 
 namespace rollfix::app {
 

@@ -48,7 +48,7 @@ RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const Shared
       place_(arc.at(w)),
       most_scale_(most_scale(start(2, 2))),
       most_gyroscope_scale_(most_scale(start(3, 3))),
-      most_bias_(kMostSigmas * std::sqrt(start(4, 4))),
+      most_bias_(kMostErrorSigmas * std::sqrt(start(4, 4))),
       p_(start) {}
 
 RollFilter RollFilter::again(const SharedCovariance& start, std::pmr::memory_resource* memory) const {
