@@ -52,8 +52,8 @@ TEST(Solve, answers_exact_readings_as_the_search_does_for_one_finger_and_two) {
 
 TEST(Solve, takes_the_tolerance_from_rounded_digits) {
   rollfix::Measurement measured(roll_of_one(1, 0.7));
-  felt.roundings = {{0.005, 0}};
-  const Answer answer = solve({cam(), felt});
+  measured.roundings = {{0.005, 0}};
+  const Answer answer = solve({cam(), measured});
   EXPECT_EQ(answer.tolerance.source, Tolerance::Source::digits);
   EXPECT_GT(answer.tolerance.value, 0.001);
 }
@@ -74,8 +74,8 @@ TEST(Solve, takes_the_sharpest_curvature_for_the_rounding_also_where_the_outline
   arc(0);
   arc(1);
   rollfix::Measurement measured(Reading(0.5, 0));
-  felt.roundings = {{3 * piece * r, 0}};
-  EXPECT_NEAR(solve({Part(outline), felt}).tolerance.value, 3 * piece, 1e-9);
+  measured.roundings = {{3 * piece * r, 0}};
+  EXPECT_NEAR(solve({Part(outline), measured}).tolerance.value, 3 * piece, 1e-9);
 }
 
 TEST(Solve, allows_for_a_measured_part_whose_tangents_are_off_at_both_ends_of_each_roll) {

@@ -33,15 +33,15 @@ TEST(TypedReadings, fit_nowhere_where_their_numbers_are_taken_as_exact) {
 
 TEST(TypedReadings, are_off_by_half_a_unit_of_their_last_decimal_each_in_its_own_unit) {
   const Measurement measured = typed({"1.5cm,0.25"}, "mm");
-  EXPECT_DOUBLE_EQ(felt.readings.front().length[0], 15);
-  EXPECT_DOUBLE_EQ(felt.roundings.front().length, 0.05);
-  EXPECT_DOUBLE_EQ(felt.roundings.front().turn, 0.005);
+  EXPECT_DOUBLE_EQ(measured.readings.front().length[0], 15);
+  EXPECT_DOUBLE_EQ(measured.roundings.front().length, 0.05);
+  EXPECT_DOUBLE_EQ(measured.roundings.front().turn, 0.005);
 }
 
 TEST(TypedReadings, of_two_fingers_have_both_lengths) {
   const Measurement measured = typed({"0.58,0.94,-0.725248"});
-  EXPECT_EQ(felt.readings.front().fingers(), 2U);
-  EXPECT_DOUBLE_EQ(felt.roundings.front().length, 2 * 5e-7);
+  EXPECT_EQ(measured.readings.front().fingers(), 2U);
+  EXPECT_DOUBLE_EQ(measured.roundings.front().length, 2 * 5e-7);
 }
 
 TEST(TypedReadings, that_are_none_are_refused_with_what_was_expected) {
