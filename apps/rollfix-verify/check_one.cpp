@@ -14,10 +14,10 @@
 //   X               the starts at which every |f| is within the tolerance
 //   cell            all starts from one row to the next, with its claim: `kind`, `by`; a group is a run of cells that
 //                   are not apart
-// Follows docs/certificates.md, "What proved means" and "How it is checked". Each start is in a cell, for rows rise and
-// go once round, or from end to end (check_cover). T1, nothing else: check_cell for what is apart, find_remains for the
-// rest of each group. T2, each is there: fits, or check_root. T3, kind and count: check_cell and is_of_kind. T4, the
-// question: read_row, and Document.
+// Follows docs/certificates.md, "What 'proved' means" and "How it is checked". Each start is in a cell, for rows rise
+// and go once round, or from end to end (check_cover). T1, nothing else: check_cell for what is apart, find_remains for
+// the rest of each group. T2, each is there: fits, or check_root. T3, kind and count: check_cell and is_of_kind. T4,
+// the question: read_row, and Document.
 namespace rollfix_verify {
 namespace {
 

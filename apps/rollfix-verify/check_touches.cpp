@@ -17,7 +17,7 @@
 
 // Notation: a pose X, phi has the part's point c at X + R(phi) c; q_i is a touch's measured centre, tau_i the tangent
 // by its normal; p + r n the finger's centre where it touches at p.
-// What a certificate of touches claims, docs/certificates.md: each stated pose fits (`check_pose`), and every pose that
+// What a certificate of touches claims, docs/certificates.md: each stated pose fits (`check_set`), and every pose that
 // fits is in a stated set (`PoseSearch`). A roll is its first contact, on what its readings leave (`RollStarts`); rolls
 // stand before touches. A part that lies face down is looked at in the mirror x = -x.
 namespace rollfix_verify {

@@ -18,7 +18,7 @@
 //   X               the pairs at which every equation is off by no more than the tolerance
 //   box, leaf       a stretch of s times one of t; a cell of the tree with its claim, and `whole_` holds all pairs
 //   remains         convex sets that hold all of X in a cell: Placement::remains
-// Follows docs/certificates.md, "What proved means" and "Two fingers". read_cover walks through boxes that hold all
+// Follows docs/certificates.md, "What 'proved' means" and "Two fingers". read_cover walks through boxes that hold all
 // pairs. T1, nothing else: check_cell, and look_at_pieces for what remains of the cells of each placement. T2, each is
 // there: check_placement. T3, kind and count: check_roots and check_line. T4, the question: read_row, whole, and
 // Document.

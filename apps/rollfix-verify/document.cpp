@@ -8,7 +8,7 @@
 // Notation: s is the arc length, P the perimeter; a place is [curve, its parameter], and s, point and tangent that are
 // stated of it have to be within the slacks of document.hpp of what the formulas say. Angles differ by whole turns, and
 // a tangent may turn by |kappa| times what a place may be off (`turn_beside`). Follows docs/certificates.md, "What
-// proved means": T4, the question.
+// 'proved' means": T4, the question.
 namespace rollfix_verify {
 namespace {
 

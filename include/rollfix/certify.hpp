@@ -9,7 +9,7 @@
 //     certificate.placements.size();    // 4
 //
 // Degenerate cases: what can't be proved within the budget is `unproved`, or `unresolved`, and `is_complete()` is
-// false. Rolls of two readings at a double root can end so: docs/certificates.md.
+// false; what no certificate claims: docs/certificates.md, "What is not proved".
 //
 // Accuracy: claims hold for the outline's formulas in exact arithmetic, within the stated tolerance; the verifier
 // computes in balls of 128 bits.
@@ -26,7 +26,6 @@
 #include "rollfix/reading.hpp"
 #include "rollfix/touch.hpp"
 
-// An answer that anyone can check without this library: docs/certificates.md.
 namespace rollfix {
 
 /// A place by the outline's own formulas.

@@ -23,7 +23,6 @@
 #include "rollfix/teach.hpp"
 #include "rollfix/touch.hpp"
 
-// The JSON documents that the program prints with --json, as text: docs/json.md lists their fields.
 namespace rollfix {
 
 /// How a document is laid out: a field on each line, or all of it on one.

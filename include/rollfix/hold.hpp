@@ -30,8 +30,6 @@
 #include "rollfix/reading.hpp"
 #include "rollfix/touch.hpp"
 
-// Several fingers that hold and roll on a part that moves: docs/two_fingers.md, "Three and more fingers"; a finger with
-// skin beside a wheel without: docs/rig.md.
 namespace rollfix {
 
 /// A wheel without skin that turns freely on a pin, and rolls on the part beside fingers with skin. That it touches,

@@ -32,7 +32,6 @@
 #include "rollfix/touch.hpp"
 #include "rollfix/tracker.hpp"
 
-// Many parts in one SQLite file: docs/identify.md has its tables.
 namespace rollfix {
 
 /// A part of a catalog, as its lists show it.

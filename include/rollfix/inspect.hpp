@@ -19,7 +19,6 @@
 #include "rollfix/finger.hpp"
 #include "rollfix/part.hpp"
 
-// Facts of a part: how large, how curved, how ambiguous rolls on it are, where a finger can touch it.
 namespace rollfix {
 
 /// The smallest upright rectangle around the boundary.

@@ -7,7 +7,7 @@
 //     reading.length[0];  // 0.2
 //
 // Degenerate cases: a cell that is no number, a row that jumps, time that does not grow: an InputError with the file,
-// the line and the value. Angles that wrap are unwrapped, which is refused where a step may be half a turn.
+// the line and the value. Angles that wrap are unwrapped, which is refused where the rows are too far apart.
 
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 

@@ -205,10 +205,6 @@ Result stationary_points(const Outline& outline, double length, const Options& o
 Result segments_with_integral(const Outline& outline, const DensityFunction& f, double length, double integral,
                               const Options& options = {});
 
-}  // namespace rollfix::march
-
-namespace rollfix::march {
-
 /// How a pair of starts was found.
 enum class PairFound {
   bisection,  // phi_2 and phi_4 go opposite ways

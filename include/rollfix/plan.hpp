@@ -13,8 +13,8 @@
 //     const Plan plan = solve(problem);
 //     plan.decided;  // true
 //
-// Degenerate cases: contacts that can't squeeze the part, or a finger that would have to pass a corner, fail a
-// condition, which `margins` names with the time and the row.
+// Degenerate cases: contacts that can't squeeze the part fail a condition, which `margins` names with the time and the
+// row; a length beyond a concave corner is an InputError.
 //
 // Accuracy: conditions are proved between the rows as well where `proved` says so; else they hold in many instants.
 

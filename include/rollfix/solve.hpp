@@ -40,7 +40,6 @@
 #include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"
 
-// What is asked and what is answered, of one finger or two. Names are those of the JSON document.
 namespace rollfix {
 
 /// What the fingers measured: readings, or a log.

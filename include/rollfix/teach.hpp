@@ -8,8 +8,8 @@
 //     taught.turns;                                                             // 1
 //     std::abs(taught.outline.closed ? Part(taught.outline).perimeter() - truth.perimeter() : 1) < 1e-3;  // true
 //
-// Degenerate cases: a roll that does not come back is refused unless `open` or `bridge`; corners are found where
-// neighbouring rows turn by `corner_angle`.
+// Degenerate cases: a roll that does not come back is kept open, or bridged if `bridge` asks for it; corners are where
+// the turn changes and the length does not, or neighbouring rows turn by `corner_angle`.
 //
 // Accuracy: Taught states it, from the noise, the rows' distance and the gap; docs/teach.md, "How accurate", compares
 // it with the truth.

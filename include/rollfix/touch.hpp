@@ -9,7 +9,7 @@
 //     answer.verdict_text();  // "ambiguous (2)"
 //
 // Degenerate cases: one touch alone is `unobservable`; touches on one straight side, or on a circle, leave a continuum,
-// of which `extent` and `family` say where it lies; a part with m-fold symmetry has m poses.
+// of which `extent` says where it lies; a part with m-fold symmetry has m poses.
 //
 // Accuracy: docs/touch.md has the share of simulated questions whose true pose is listed and in its intervals.
 
@@ -29,7 +29,6 @@
 #include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"
 
-// From contacts that share a pose, touches without rolling and rolls, to every pose of the part: docs/touch.md.
 namespace rollfix {
 
 /// One contact without rolling, in the world: a probe's ball, or a round finger.

@@ -15,12 +15,11 @@
 //   chi^2, nu       squares of what the rows are off in standard deviations, and their degrees of freedom: Fit
 //   k               sqrt(chi^2 / nu): rows as noisy as they are have the log evidence + chi^2 (1 - 1 / k^2) / 2 - nu
 //                   log k
-//   odds            log of how much likelier a mistake is than what explains the rows otherwise
+//   odds            log of how much likelier the rows are with a mistake than without: `Diagnosis::log_odds`
 //   stretch         by how much a mistake stretches the numbers of a row, and their density with them
 // Follows docs/belief.md, "What may be wrong".
 // Idea: each usual mistake is mended and the rows are weighed again, by a few of them first. Those that explain the
-// rows
-// are said, the likeliest first; else those with which they fit far better.
+// rows are said, the likeliest first; else those with which they fit far better.
 namespace rollfix {
 namespace {
 

@@ -15,7 +15,7 @@
 // Notation:
 //   L_0 = 0, L_1, L_2, ...   one finger's lengths: at its first contact and at each reading
 //   L_k - L_j       what it has rolled in between: a way from corner to corner, but for digits
-//   h               how far rounding may have moved a length: half a unit of its last digit
+//   h               how far rounding may have moved a length: Rounding::length
 //   kappa           the largest curvature that lasts for h: what turns in less is a corner; h kappa of turn is the
 //                   tolerance
 // Follows docs/cli.md, "Tolerance".

@@ -19,7 +19,8 @@
 //   off             by how much a row misses a placement, against what digits leave open: `kOverTolerance` times
 // Follows docs/belief.md, "Logs without noise".
 // Idea: without noise a few rows are searched with, and all of them are held against what was found. Where none fits,
-// the rows are weighed with a noise so fine that the least mistake shows, then with that of usual sensors.
+// the rows are weighed with the noise that they show; else with one so fine that the least mistake shows, then with
+// that of usual sensors.
 namespace rollfix {
 namespace {
 

@@ -12,7 +12,7 @@
 //   e_i             innovations of one equation, in standard deviations, i = 0, ..., n - 1: `each`
 //   c_k             sqrt(2 / n) sum of e_i cos(pi k (i + 1/2) / n), for k = 0 by sqrt(1 / n): `component`
 //   m               `kComponents`, of few innovations a quarter as many: `most`
-//   slow            c_0^2 + ... + c_(m-1)^2, less what all innovations are larger by: a chi-square of m degrees
+//   slow            c_0^2 + ... + c_(m-1)^2, over what all innovations are larger by: a chi-square of m degrees
 //   s, T            a contact's place on the part and the tangent's angle there: Piece, with its share of a mode
 //   q, beta         where a contact was felt in the world, and u + psi: MeasuredContact
 //   (X, phi)        the part's pose: beta = phi + T + pi / 2, and q = X + R(phi) p(s); of two fingers the middle of

@@ -6,8 +6,8 @@
 
 // Notation:
 //   s, p(s)         arc length and the boundary; a trace is p at some s, with straight edges in between: Trace
-//   h               half of the tolerance: as far an edge's middle may be off the curve, and as far a vertex that is
-//                   left out off the edge that takes its place: `simplify`
+//   tolerance       as far an edge's middle may be off the curve: Sampler; half of it, as far a vertex that is left out
+//                   may be off the edge that takes its place: `simplify`
 // Follows D. H. Douglas and T. K. Peucker, "Algorithms for the reduction of the number of points required to represent
 // a digitized line or its caricature" (1973).
 // Idea: s stays with each vertex, so that a place of the boundary is found on the polyline by its arc length.

@@ -10,12 +10,12 @@
 #include "rollfix/locate.hpp"
 
 // Notation:
-//   s_k             contact of a finger at instant k: its first contact s plus L_k, the first contact being k = 0: `rolls_`
+//   s_k             contact of a finger at instant k: its first contact s plus L_k, with L_0 = 0: `rolls_`
 //   roll            [least, most] L_k of a finger, so that all of s + roll is on its way: `roll_`
 //   arc, pivot      where the finger can touch without running into the part, and at a corner at which tangents: Reach
 //   r               radius of a finger; a jaw has none (curvature 0)
-//   c(s)            centre of the finger that touches at s, p(s) + r n(s) with the outward normal n: in a `Ball` while s
-//                   is in an interval
+//   c(s)            centre of the finger that touches at s, p(s) + r n(s), n the outward normal: in a `Ball` while s is
+//                   in an interval
 //   depth           by how much two fingers overlap, at least: r_a + r_b - |c_a - c_b|; of a jaw r + (c - p) . n
 // Follows docs/reach.md and docs/two_fingers.md.
 // Idea: a placement goes where no piece of it (a box of first contacts) can do all of its roll within the reach, pivot

@@ -22,8 +22,8 @@
 //   (L, theta)      a reading from the first contact on, by a finger's shape: `reading_between`; of two (La, Lb, theta)
 //   instant         a time that is asked for; its row is the nearest one, no further than half the way to its
 //                   neighbours
-//   rounding        half a unit of the last digits of place and angle: Rounding
-// Follows docs/rolling.md, "The roll itself" and "Logs", and eqs. (1) and (2) of the paper (Jia, IROS 2001).
+//   rounding        what half a unit of the last digits of places and angles leaves open of a reading: Rounding
+// Follows docs/rolling.md, "The roll itself" and "Logs", and eqs. (1) to (3) of the paper (Jia, IROS 2001).
 namespace rollfix {
 
 namespace {

@@ -1,10 +1,10 @@
 #include "march/sweep.hpp"
 
-// Notation (section 2.1; docs/march.md, "Convex boundary")
+// Notation (section 2.1; docs/march.md, "Convex boundary: Cases 1 and 2")
 //   s_i, t_i    the march's two sequences: `pair.s`, `pair.t`, arc lengths; the segment is [s_i, t_i]
 //   L, theta    the segment wanted: `problem.length`, and `problem.integral`, C for a general density
 //   rho(s)      length of the segment from s on that has total curvature theta; found by `to_integral`, never stored
-//   kappa       curvature, `density()`; a, b are the ends of the segment that is found
+//   kappa       curvature, or another density: `density()`; a, b are the ends of the segment that is found
 // Idea: s and t move in turn, each until one of equations (4) and (5) holds; Lemma 1 has both grow towards a and b
 // without passing them, Lemma 2 says how fast, and Proposition 3 that the limit is the first segment that fits.
 

@@ -10,7 +10,7 @@
 //   x, y; w, z      ends of the stretch of s, and of t, on which (8) gives each s one t: `begin`, `end`
 //   x_i, w_i        the iteration of Figure 6: `at`
 //   trend_2, _4     +1 where phi_2 (phi_4) grows along the stretch, else -1
-// Idea: (8) always holds while s and t move. Where phi_2 and phi_4 go opposite ways, phi_2(s) - phi_4(t) is monotone:
+// Idea: (8) holds again after each move. Where phi_2 and phi_4 go opposite ways, phi_2(s) - phi_4(t) is monotone:
 // bisection. Else one start moves until (9) holds, the other until (8) does, and so on to the limit.
 
 namespace rollfix::march {

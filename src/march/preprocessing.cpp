@@ -12,10 +12,10 @@
 // Notation (section 2.2, "In preprocessing, we compute all points of inflection")
 //   z_i          sign changes of the density g, `changes`, each with the length and the integral from s = 0 to it
 //   P            perimeter, `loop.length`
-//   variation    integral of |g| over the whole outline
-//   Refusal      what the march is not made for, by its Reason: corners, straight lines, arcs, jumps of g
-// Idea: what the paper asks of a curve (regular, no corner, simple inflections) is checked once, and said before it
-// marches.
+//   variation    integral of |g| over the whole outline, to a few digits
+//   Refusal      what the march is not made for: corners, lines, arcs, zeros not simple, for eq. (6) jumps of kappa
+// Idea: what the paper asks of a curve (no corner, line or arc, simple inflections) is checked once, and said before
+// it marches.
 
 namespace rollfix::march {
 

@@ -8,10 +8,10 @@
 // Notation (section 3.2; docs/march.md, "Which of s and t moves first")
 //   rectangle     two monotone intervals [a_i, a_i+1] x [b_j, b_j+1], on which (8) is a curve: `way_`
 //   excess(k)     what (8), k = 0, or (9), k = 1, is off by at (s, t)
-//   slope         d (phi_2 - phi_4) along that curve
+//   slope         change of phi_2 - phi_4 along that curve, per length of the one of s and t that moves more
 //   one ... four  phi_1' ... phi_4' at (s, t)
-// Idea: all pairs on the curve, in order: a limit is found, passed by "a small amount", and the march goes on. Limits
-// that are not reached and pairs that may have been passed become doubts.
+// Idea: bisection finds the one pair or none; the march all pairs on the curve, in order: a limit is found, passed by
+// "a small amount", and it goes on. Limits that are not reached and pairs that may have been passed become doubts.
 
 namespace rollfix::march {
 

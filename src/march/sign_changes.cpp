@@ -9,7 +9,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 // Notation (section 2.2, preprocessing)
-//   g        density: the curvature (its zeros are inflections), or its derivative by s (vertices)
+//   g        density: the curvature (its zeros are inflections), its derivative by s (vertices), or another
 //   z        a sign change of g, as a curve and a parameter u on it
 //   order    of a zero: g grows like (u - z)^order; a simple one has order 1, footnotes 1 and 2 of the paper
 // Idea: g is sampled as densely as it is integrated; between samples of different signs a root is bracketed (TOMS 748,

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-// Notation (section 2.2, Figure 3; docs/march.md, "Non-convex boundary")
+// Notation (section 2.2, Figure 3; docs/march.md, "Non-convex boundary: the four modes")
 //   s, t          ends of the sliding segment: `pair.s`, `pair.t`, t = s + L; arc lengths
 //   g, phi, C     density (kappa, or kappa' for eq. (6)); phi(s) = its integral over [s, s + L]; the value wanted
 //   z_k, z_l+1    first sign change of g after s, and after t: `next_s_`, `next_t_`

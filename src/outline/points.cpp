@@ -16,8 +16,7 @@
 // Notation:
 //   p_k             points, with the lines of the file that they came from: NumberedPoints
 //   above, below    an airfoil's surfaces: Selig's order is one loop from the trailing edge over the top to the nose
-//                   and
-//                   back below, Lednicer's the two surfaces, each from the nose on
+//                   and back below, Lednicer's the two surfaces, each from the nose on
 //   chord           of an airfoil, from nose to tail: 1, the tail being at x = 1
 // Follows docs/files.md, "Points and scans" and "Airfoils".
 namespace rollfix {

@@ -234,10 +234,6 @@ std::vector<Curve> periodic_spline(const Chords& chords) {
   return curves;
 }
 
-}  // namespace
-
-namespace {
-
 /// `breaks`: where a new spline starts, in order; of an open curve its first point among them.
 std::vector<Curve> spline_in_runs(const Chords& chords, const std::vector<std::size_t>& breaks) {
   if (breaks.empty()) return periodic_spline(chords);

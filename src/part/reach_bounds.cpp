@@ -10,16 +10,15 @@
 //   chord           from `start` to `end`; of a node over many stretches a point, the middle of their box
 //   deviation       no point of the boundary is further from the chord
 //   Theta           tangent's angle at both ends of a single stretch: `at_lo`, `at_hi`
-//   x, y            along the tangent at the contact, and against the outward normal there; T, phi: the slope's angle
+//   x, y            along the tangent at the contact, and against the outward normal there; phi: the slope's angle
 //   kappa, k        curvature of the boundary and of the finger; d(sin phi)/dx = kappa, and of the disk's rim it is -k
 //   e               by how much kappa falls short of -k: `excess_`; j, x_j: turn and place of a concave joint: `jumps_`
 // Follows docs/reach.md, "How it is decided", its tree (1) and the safe stretch around a contact (3).
 // Idea: a stretch that turns by little in one direction lies no further from its chord than the isosceles triangle with
 // the same turn. Long runs are bounded by boxes, short stretches are halved when somebody asks for it. Around a
-// contact,
-// while kappa >= -k, the boundary stays above the rim, and the finger can't enter it. Else it comes below by no more
-// than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope: while that is within the slack, and the slopes
-// make sense, the stretch is safe.
+// contact, while kappa >= -k, the boundary stays above the rim, and the finger can't enter it. Else it comes below by
+// no more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope: while that is within the slack, and the
+// slopes make sense, the stretch is safe.
 namespace rollfix {
 namespace {
 

@@ -18,8 +18,8 @@
 // widest path (Hu's maximum capacity route, by columns) gives the best margin, a second pass the cheapest path that
 // keeps it, and chords across its corners make it smooth. docs/plan.md, "How the motion is chosen".
 // Beside a wheel, on nodes of y the signs of B bracket every y that balances the wheel at a given x; from column to
-// column the bracket that goes on is the nearest with the same direction of crossing. Where a path goes on, B(x, y) has
-// different signs at both of its neighbouring y halfway between the columns; where the wheel turns back it has not.
+// column the balance that goes on is the nearest one. Where a path goes on, B(x, y) has different signs at both of its
+// neighbouring y halfway between the columns; where the wheel turns back it has not.
 namespace rollfix {
 namespace {
 

@@ -13,8 +13,8 @@
 namespace rollfix {
 
 // Notation:
-//   x             how far a finger has turned against the part since its first contact: `turned`. With eq. (3)
-//                 dx = (kappa + k) ds, k being the finger's curvature; at a corner s stays and x = dTheta
+//   x             how far a finger has turned against the part since its first contact: `turned`. With eq. (2)
+//                 dx = (kappa + k) ds, k being the finger's curvature; at a corner s stays and dx = dTheta
 //   s, Theta, p   the contact's place, the tangent's angle and the point there, in the part's frame
 //   c             where the origin of the finger's frame is, in the part's frame
 // Idea: x grows all along a way that the finger can go, over corners as well, so that it names each contact once.
@@ -82,7 +82,7 @@ struct Turned {
 };
 
 /// How both fingers roll: their turns x, y against the part as functions of lambda in [0, 1], monotone between nodes
-/// and with a continuous derivative (Fritsch and Carlson 1980). Beside a wheel y is what balances it, B = 0.
+/// and with a continuous derivative (Fritsch and Butland 1984). Beside a wheel y is what balances it, B = 0.
 class RollPath {
  public:
   /// `b`: nullptr of one finger. `knots`: from 0 to 1, growing. `squeezed`: beside a wheel; then b at the knots is

@@ -20,7 +20,7 @@
 //   goal            x at the end of finger a's length; y is as long, or any in `range_of`, or what balances a wheel
 //   margin          the least of cone - |A| and cone - |B|, where the fingers are apart: `margin_between`, `cone_of`
 //   looked          each condition with what is left of it where it is worst: Looked
-// Follows docs/plan.md, "What is looked at" and "How the motion is chosen".
+// Follows docs/plan.md, "What is checked" and "How the motion is chosen".
 // Idea: even turns are tried first, then the widest path; what is found is looked at as if it had been given.
 namespace rollfix {
 namespace {

@@ -12,8 +12,8 @@
 #include "rollfix/rolling.hpp"
 
 // Notation:
-//   sd              of a row's turn: `errors`; of readings u and psi the contact's error counts by how the part bends
-//                   there
+//   sd              of a row's turn: `errors`; the contact's error counts by the part's mean curvature, of u and psi by
+//                   the finger's as well
 //   d_k             fourth differences of turns: of independent errors their variance is 70 sd^2, of increments, which
 //                   are differences already, 20 sd^2: `unsaid_noise`
 //   G, drift        what a lap's turn is off whole ones, `turn_gap`, and the share of it that is taken for drift

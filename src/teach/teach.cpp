@@ -20,13 +20,13 @@
 //                   `lap_`, `turn_gap`, `gap`
 //   allowed         kDeviations standard deviations of what noise and drift make of G and of g, and what rounding and
 //                   the distance of exact rows do: `turn_allowed`, `gap_allowed`
-//   interpolated    how far every other row is off the curve through the rest, less a factor: `interpolated_`
+//   interpolated    how far every other row is off the curve through the rest, over kInterpolated: `interpolated_`
 // Follows docs/teach.md. Both within what is allowed: the lap closes, and what is off is spread over it.
 namespace rollfix {
 
 namespace {
 
-/// Exact rows: what every other one is off the curve through the rest, less this factor, is what all are off between.
+/// Exact rows: what every other one is off the curve through the rest, over this factor, is what all are off between.
 constexpr double kInterpolated = 16;
 /// A smooth fit is off by its noise, and by what was too little to be seen in it: together by this factor.
 constexpr double kUnseen = 1.2;

@@ -10,7 +10,7 @@
 // Notation:
 //   p(t)         a place on a path along which nothing was felt; the same in the part's frame is R(-phi) (p - X)
 //   d            its distance from the part, below 0 inside: PartDistance
-//   r, delta     the finger's radius, and how far the path may be off; the path is blocked where d < r - delta: `bound_`
+//   r, delta     the finger's radius, and how far the path may be off; it is blocked where d < r - delta: `bound_`
 //   cell         poses (X, phi) about a middle; p is within `moved(p)` of where the middle has it
 // A cell goes where a path is blocked in all of its poses: d at the middle < r - delta - moved. With noise a pose has
 // its weight times P(d > r), d normal about the least one of the path: docs/touch.md, "Where nothing was touched".

@@ -16,7 +16,7 @@
 // Idea: branch and bound over the tree of stretches, by the distance from a node's disc and from its interval of
 // angles; on a stretch that bends little Newton's method, which goes on to the neighbours as long as that is downhill.
 // How far a point is from the part is asked of the path of a finger without size: docs/touch.md, "Where nothing was
-// felt".
+// touched".
 namespace rollfix::touch {
 namespace {
 

@@ -19,8 +19,7 @@ namespace {
 
 constexpr double kSame = 0.2;
 
-// Discs of the first level, as a share of the part's diagonal, and how much
-// finer each next one is.
+// Discs of the first level, as a share of the part's diagonal, and how much finer each next one is.
 constexpr double kFirstDisc = 0.02;
 constexpr double kFinerLevel = 0.125;
 // A set with more than this share of the cells that are enough is a continuum.

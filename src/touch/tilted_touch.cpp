@@ -140,10 +140,6 @@ class Integral {
   Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();
 };
 
-}  // namespace
-
-namespace {
-
 /// E g and E M - Cov g for a place with this variance on a straight side: there g is linear, and M quadratic, in u.
 Normals mean_and_spread(const PartFrame& frame, const InPart& touch, const CentrePoint& point, double variance) {
   Normals normals = normals_at(frame, touch, point);

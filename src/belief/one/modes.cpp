@@ -14,7 +14,7 @@
 //   valley          log density falls by `kValley` below the lower of two peaks: then they are two modes
 //   w, s            tilted turning and place of the first contact; its tangent is w - c s, c the tilt
 //   g, F            slope and information of log L at the likeliest point: the peak is a step of Newton's, g / F, away
-// Follows docs/belief.md, "The computation", "Two peaks are two places".
+// Follows docs/belief.md, "The computation".
 // Idea: a run is a mode; its mean and standard deviation, the median and 95 % follow from its cells. As long as what
 // holds 95 % of all modes (`credible_length`) are the densest cells, the ones cut finely in which the density changes.
 namespace rollfix::belief {

@@ -15,7 +15,7 @@
 // SVG's path grammar, and its basic shapes as subpaths.
 // Notation:
 //   pen             `last_`, where the last command ended; where Z ends is the start of the subpath
-//   reflected       the control point that S and T continue with: `reflected_`
+//   reflected       the control point that S and T continue with: `control_` seen from the pen, 2 `last_` - `control_`
 //   radii, degrees  of an elliptical arc, and how its first axis is turned; scaled up where they don't reach
 // Follows docs/files.md, "SVG"; SVG 1.1, "Paths", "Basic shapes" and its appendix F.6 on elliptical arcs.
 namespace rollfix::svg {
@@ -54,7 +54,7 @@ Segment arc_between(const Vec2& from, const Vec2& to, const Vec2& radii, double 
   return segment;
 }
 
-/// Builds subpaths from commands. `last_` is where the pen is, `reflected_` what S and T continue with.
+/// Builds subpaths from commands. `last_` is where the pen is, `control_` what S and T reflect.
 class PathReader {
  public:
   explicit PathReader(const Value& data) : scan_(data) {}

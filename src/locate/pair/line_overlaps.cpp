@@ -1,5 +1,3 @@
-// Where curves run along each other: the other equations vanish all along the line that the guide leaves.
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,11 +11,10 @@
 //   x, y, g         the free contact and the bound one; the guide, the equation that is solved for y: `guide_`
 //   r_k(x)          the other equations along that line: `residual`
 //   rounding        what an r_k that is 0 may be off, by the rates of all contacts: `residual_rounding`
-//   overlap         a stretch of x, in the box, on which every r_k is 0, and its slope for rounding
+//   overlap         a stretch of x, in the box, on which every r_k and its slope are 0 but for rounding
 // Follows docs/search.md, "Two fingers", step 5.
 // Idea: on one piece r_k has fewer degrees of freedom than there are samples: zero at all of them, it is zero in
-// between.
-// Where both fingers go straight, its two ends are enough.
+// between. Where both fingers go straight, its two ends are enough.
 namespace rollfix {
 namespace {
 
