@@ -6,8 +6,8 @@
 //     outline.curves.size();      // 4
 //     check(outline).empty();     // true
 //
-// Degenerate cases: repeated points, two points, curves that don't meet: an InputError or a line of `check` that says
-// where.
+// Degenerate cases: repeated points, two points of a closed outline, curves that don't meet: an InputError or a
+// line of `check` that says where.
 
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
