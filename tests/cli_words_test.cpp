@@ -25,7 +25,7 @@ TEST(CliWords, where_nothing_fits_one_voice_says_so) {
   const cli::Folder folder;
   write_roll();
   const std::string exact = run("locate gallery:cam --log roll.csv --finger disk,r=0.25").out;
-  EXPECT_THAT(exact, StartsWith("inconsistent: nothing fits\nlikeliest: all lengths are 0.8 times what was measured"));
+  EXPECT_THAT(exact, StartsWith("inconsistent: nothing fits\nlikeliest: all lengths are 0.8 ± "));
   const std::string noisy =
       run("locate gallery:cam --log roll.csv --finger disk,r=0.25 --noise contact=0.002,angle=0.2deg").out;
   EXPECT_THAT(noisy, StartsWith("inconsistent: nothing fits\nlikeliest: "));
