@@ -150,7 +150,7 @@ const std::vector<Mistake> kLogs = {
      {"--facing", "log"}},
     {"two_fingers",
      "locate gallery:cam --log roll.csv --finger disk,r=1 --finger disk,r=1",
-     {"--finger", "two fingers"}},
+     {"--finger", "2 fingers"}},
     {"no_such_instant", "locate gallery:cam --log roll.csv --finger disk,r=1 --at 7", {"roll.csv", "7"}},
     {"everything_from_stdin", "locate - --log -", {"standard input"}},
     {"no_start", "simulate gallery:cam --finger disk,r=1 --length 1", {"--start"}},

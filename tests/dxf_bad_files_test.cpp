@@ -169,8 +169,9 @@ TEST(BadDxfNumber, bulge) {
 }
 
 TEST(BadDxfNumber, long_values_are_cut_in_messages) {
-  EXPECT_THAT(message_with(kLine, "0.5", std::string(1000, '7') + "x"),
-              StartsWith("part.dxf:10: '" + std::string(60, '7') + "...' is not a number"));
+  EXPECT_THAT(
+      message_with(kLine, "0.5", std::string(1000, '7') + "x"),
+      StartsWith("part.dxf:10: expected a number behind group code 10, found '" + std::string(60, '7') + "...'"));
 }
 
 // ---- Entities that lack something.

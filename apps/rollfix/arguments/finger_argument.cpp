@@ -128,8 +128,8 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
 
 std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most, const std::string& unit) {
   if (fingers.size() > most && most == 1) {
-    throw InputError(
-        fmt::format("--finger is given {} times, expected once: the contacts are of one finger", fingers.size()));
+    throw InputError(fmt::format(
+        "--finger is given {0} times, which is {0} fingers, and the rest is about one: give it once", fingers.size()));
   }
   if (fingers.size() > most) {
     throw InputError(
