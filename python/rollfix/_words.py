@@ -20,7 +20,7 @@ _PLAIN = (
     (r"; `skip_bad` leaves such rows out", "; read_log(..., bad='skip') leaves such rows out"),
     (r"`wrapped` no\b", "wrapped=False"),
     (r"`wrapped` yes\b", "wrapped=True"),
-    (r"without a unit is in radians, degrees are written as in (\d+)deg", r"is in radians; of degrees make np.radians(\1)"),
+    (r"a number without a unit is in radians, degrees are written as in ([\d.]+)deg", r"of degrees make radians: np.radians(\1)"),
     (r"; degrees are written \d+deg", "; of degrees say degrees=True"),
     (r"\(degrees are written as in (\d+)deg\)", r"(of degrees make radians: np.radians(\1))"),
     (r"with `unit`, (?:as in|such as) `unit` (\w+)", r"with unit='\1'"),

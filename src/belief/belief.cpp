@@ -10,6 +10,7 @@
 #include "belief/posterior.hpp"
 #include "part/part_data.hpp"
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 
 // The facade: which posterior, and the verdict on what it settles at.
 // Notation:
@@ -44,6 +45,12 @@ void require_valid(const Part& part, const BeliefOptions& options, const FingerG
   }
 }
 
+/// The number if it is one that people write, with up to four digits; else another.
+std::string short_number(double value, const char* other) {
+  const std::string text = fmt::format("{:.4g}", value);
+  return parse_number(text) == value ? text : other;
+}
+
 }  // namespace
 
 void belief::require_weighable(const Noise& noise) {
@@ -56,8 +63,8 @@ void belief::require_weighable(const Noise& noise) {
   if (noise.angle > BeliefOptions::kMostAngle) {
     throw InputError(fmt::format(
         "noise: an angle's standard deviation of {} rad is {:.3g} deg, expected at most {} rad: beyond that a "
-        "row says nothing; a number without a unit is in radians, degrees are written as in 2deg",
-        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle));
+        "row says nothing; a number without a unit is in radians, degrees are written as in {}deg",
+        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle, short_number(noise.angle, "2")));
   }
 }
 
