@@ -1,14 +1,11 @@
 // What remains of an answer's weights once fingers rule places out, and once what was said of the noise is in doubt.
 #include "answer/weighing.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
-#include <string>
 
-#include "rollfix/log.hpp"
 #include "rollfix/solve.hpp"
 #include "shapes.hpp"
 
@@ -37,27 +34,6 @@ TEST(Weighing, places_that_a_jaw_does_not_get_to_are_no_evidence) {
   for (const rollfix::Placement& placement : possible.placements) EXPECT_NEAR(placement.probability, 0.25, 1e-3);
   const double odds = possible.weighing->evidence.with(1) - any.weighing->evidence.with(1);
   EXPECT_NEAR(odds, std::log(0.5), 0.01);
-}
-
-/// A jaw that turns about the place where its frame begins, which is said to move away meanwhile.
-rollfix::Log of_a_jaw_that_is_not_where_it_is_said_to_be() {
-  std::string rows = "u,psi,x,y\n";
-  for (int k = 0; k < 12; ++k) {
-    const double share = k / 11.0;
-    rows += fmt::format("0,{},{},{}\n", 0.2 + 0.5 * share, 5 + 0.4 * share, 0.3 * share);
-  }
-  return rollfix::parse_log(rows, "pivot.csv");
-}
-
-TEST(Weighing, what_only_the_centres_contradict_fits_badly_whether_or_not_there_are_places_that_a_jaw_does_not_get_to) {
-  const rollfix::Part box(shapes::polygon({{0, 0}, {5, 0}, {5, 2}, {0, 2}}));  // the comb's corners at the outside
-  for (const rollfix::Part& part : {box, comb()}) {
-    const Problem problem{
-        part, of_a_jaw_that_is_not_where_it_is_said_to_be(), {rollfix::jaw()}, rollfix::Noise{0.01, 0.02}};
-    const Answer answer = rollfix::solve(problem);
-    EXPECT_FALSE(answer.diagnoses.empty());
-    EXPECT_EQ(answer.verdict.text(), "ambiguous (4), but the rows fit badly");
-  }
 }
 
 TEST(Weighing, rows_of_which_four_are_worth_one_are_a_quarter_of_the_evidence_against_what_was_said) {
