@@ -235,9 +235,9 @@ Verdict Belief::verdict_on(const std::vector<Mode>& modes) { return state_->verd
 
 Verdict Belief::verdict_on(const std::vector<Placement>& placements) { return state_->verdict_on(placements); }
 
-PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<MeasuredContact>& felt) {
+PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<MeasuredContact>& measured) {
   const std::vector<Piece> pieces = state_->posterior->pieces(mode, modes()[mode]);
-  return pose_spread_of(state_->part, pieces, felt, state_->options.noise);
+  return pose_spread_of(state_->part, pieces, measured, state_->options.noise);
 }
 
 std::vector<PosePiece> Belief::pose_pieces() {

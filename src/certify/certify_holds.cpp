@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "hold/arc_tree.hpp"
-#include "hold/hold_equations.hpp"
 #include "hold/held_question.hpp"
+#include "hold/hold_equations.hpp"
 #include "hold/hold_fit.hpp"
 #include "hold/problem.hpp"
 #include "outline/turn.hpp"
