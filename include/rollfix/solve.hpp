@@ -18,8 +18,8 @@
 // is `inconsistent`, and `diagnoses` says why; a continuum is one placement of kind `stretch`; L = 0 fits everywhere if
 // the turn is 0; L may exceed the perimeter; an open outline has no place before its ends.
 //
-// Accuracy: without noise as of `locate`. With noise the 95 % interval of a place holds the true one in 95 % of logs
-// whose noise is as stated: docs/calibration.md has the share by length of log, kind of noise and outline.
+// Accuracy: without noise as of `locate`. With noise docs/calibration.md has how often the 95 % interval holds the true
+// place, by length of log, kind of noise and outline.
 
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "documents/documents.hpp"
 #include "rollfix/documents.hpp"
 
@@ -321,19 +319,6 @@ std::string format_solution(const Solution& solution, Layout layout, bool explai
   if (solution.at_rest() != nullptr) return format_touches(*solution.at_rest(), layout);
   if (solution.moving() != nullptr) return format_hold(*solution.moving(), layout);
   return format_answer(*solution.roll(), layout, explain);
-}
-
-std::vector<std::string> notes_of(const Answer& answer) {
-  std::vector<std::string> notes;
-  if (const std::size_t count = answer.corner_rows.count; count > 0) {
-    notes.push_back(fmt::format(
-        "{} on a corner of the finger, where u does not tell how its normal is turned: {}",
-        count == 1 ? "1 row is" : fmt::format("{} rows are", count),
-        answer.weighing ? "they are not weighed" : "there the turn is open, between the others it is exact"));
-  }
-  if (!answer.other_way.empty()) notes.push_back("the other way round no such roll can be: " + answer.other_way);
-  if (answer.lengths_reversed) notes.emplace_back("the log's lengths changed their signs to match");
-  return notes;
 }
 
 }  // namespace rollfix

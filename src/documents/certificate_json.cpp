@@ -198,7 +198,7 @@ Json held_set_json(const CertifiedHoldSet& set) {
   return json;
 }
 
-Json pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tolerance) {
+Json certified_pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tolerance) {
   const Pose& pose = one.pose.pose;
   Json contacts = Json::array();
   for (std::size_t k = 0; k < one.at.size(); ++k) {
@@ -248,7 +248,8 @@ std::string format_certificate(const TouchCertificate& certificate) {
   json["touches"] = touches_json(certificate);
   json["reach"] = reach_json(certificate.reach);
   json["poses"] = Json::array();
-  for (const CertifiedPose& one : certificate.poses) json["poses"].push_back(pose_json(one, certificate.tolerance));
+  for (const CertifiedPose& one : certificate.poses)
+    json["poses"].push_back(certified_pose_json(one, certificate.tolerance));
   if (!certificate.is_complete()) {
     json["unresolved"] = {{"touch", certificate.unresolved_touch}, {"arcs", intervals_json(certificate.unresolved)}};
   }

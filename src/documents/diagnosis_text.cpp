@@ -332,4 +332,17 @@ std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
   return noise_option(diagnosis.noise);
 }
 
+std::vector<std::string> notes_of(const Answer& answer) {
+  std::vector<std::string> notes;
+  if (const std::size_t count = answer.corner_rows.count; count > 0) {
+    notes.push_back(fmt::format(
+        "{} on a corner of the finger, where u does not tell how its normal is turned: {}",
+        count == 1 ? "1 row is" : fmt::format("{} rows are", count),
+        answer.weighing ? "they are not weighed" : "there the turn is open, between the others it is exact"));
+  }
+  if (!answer.other_way.empty()) notes.push_back("the other way round no such roll can be: " + answer.other_way);
+  if (answer.lengths_reversed) notes.emplace_back("the log's lengths changed their signs to match");
+  return notes;
+}
+
 }  // namespace rollfix

@@ -37,7 +37,7 @@ Json margin_json(const PlanMargin& margin) {
           {"proved", margin.proved}};
 }
 
-Json pose_json(const Plan& plan, const PlanProblem& problem, bool last) {
+Json pose_of_plan(const Plan& plan, const PlanProblem& problem, bool last) {
   const Pose& pose = plan.roll.pose.empty() ? problem.pose : last ? plan.roll.pose.back() : plan.roll.pose.front();
   return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading});
 }
@@ -123,7 +123,7 @@ std::string format_plan_document(const Plan& plan, const PlanProblem& problem, L
        planned_each(fingers,
                     [&](std::size_t k) { return json_number(rows_of(k).psi.back() - rows_of(k).psi.front()); })},
       {"friction_needed", planned_each(fingers, [&](std::size_t k) { return json_number(plan.friction_needed[k]); })},
-      {"pose", Json::array({pose_json(plan, problem, false), pose_json(plan, problem, true)})},
+      {"pose", Json::array({pose_of_plan(plan, problem, false), pose_of_plan(plan, problem, true)})},
       {"margins", Json::array()},
       {"unchecked", plan.unchecked}};
   for (const PlanMargin& margin : plan.margins) document["margins"].push_back(margin_json(margin));

@@ -12,6 +12,7 @@ Usage: header_examples.py --prefix build/release/prefix [--compile "c++ -std=c++
 """
 
 import argparse
+import os
 import pathlib
 import re
 import shlex
@@ -91,7 +92,9 @@ def main():
         program = f"{folder}/examples"
         if subprocess.run([*compiler.command, "-w", str(path), "-o", program, *compiler.flags]).returncode != 0:
             sys.exit("an example does not compile, see above")
-        sys.exit(subprocess.run([program], cwd=run_blocks.REPOSITORY).returncode)
+        # What an example writes goes into the scratch folder.
+        environment = dict(os.environ, TMPDIR=folder)
+        sys.exit(subprocess.run([program], cwd=run_blocks.REPOSITORY, env=environment).returncode)
 
 
 if __name__ == "__main__":
