@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    rollfix::parse_dxf({reinterpret_cast<const char*>(data), size}, "fuzz.dxf");
+    rollfix::files::parse_dxf({reinterpret_cast<const char*>(data), size}, "fuzz.dxf");
   } catch (const rollfix::InputError&) {
   }
   return 0;

@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    rollfix::parse_json_outline({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+    rollfix::files::parse_json_outline({reinterpret_cast<const char*>(data), size}, "fuzz.json");
   } catch (const rollfix::InputError&) {
     // what bad input should give
   }

@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    rollfix::parse_svg({reinterpret_cast<const char*>(data), size}, "fuzz.svg");
+    rollfix::files::parse_svg({reinterpret_cast<const char*>(data), size}, "fuzz.svg");
   } catch (const rollfix::InputError&) {
     // what bad input should give
   }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "answer/weighing.hpp"
+#include "answer/steps.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/rolling.hpp"
 #include "rollfix/solve.hpp"

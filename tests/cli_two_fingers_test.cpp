@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "answer/observation.hpp"
+#include "answer/steps.hpp"
 #include "cli.hpp"
 #include "refusal.hpp"
 #include "rollfix/arguments/finger_argument.hpp"

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-const rollfix::DxfOptions kCut{"Cut"};
+const rollfix::files::DxfOptions kCut{"Cut"};
 
 std::vector<std::string> layers_of(const Drawing& drawing) {
   std::vector<std::string> names;

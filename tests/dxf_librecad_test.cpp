@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 Drawing librecad_drawing() {
-  return rollfix::parse_dxf(cli::read(ROLLFIX_TESTS_DIR "/dxf/librecad.dxf"), "librecad.dxf");
+  return rollfix::files::parse_dxf(cli::read(ROLLFIX_TESTS_DIR "/dxf/librecad.dxf"), "librecad.dxf");
 }
 
 TEST(DxfLibrecad, lines_arcs_and_circle_are_what_was_drawn) {

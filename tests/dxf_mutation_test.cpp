@@ -15,7 +15,7 @@ namespace dxf_mutation_test {
 namespace {
 
 using rollfix::InputError;
-using rollfix::parse_dxf;
+using rollfix::files::parse_dxf;
 
 /// Small valid files of all kinds, ASCII and binary: what the fuzzer starts from.
 std::vector<std::string> valid_files() {

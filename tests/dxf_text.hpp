@@ -108,12 +108,12 @@ inline std::string with_blocks(const std::string& blocks, const std::string& ent
   return file(entities, section("BLOCKS", blocks));
 }
 
-inline rollfix::Drawing parsed(const std::string& text, const rollfix::DxfOptions& options = {}) {
-  return rollfix::parse_dxf(text, "part.dxf", options);
+inline rollfix::Drawing parsed(const std::string& text, const rollfix::files::DxfOptions& options = {}) {
+  return rollfix::files::parse_dxf(text, "part.dxf", options);
 }
 
 /// What an InputError says.
-inline std::string message_of(const std::string& text, const rollfix::DxfOptions& options = {}) {
+inline std::string message_of(const std::string& text, const rollfix::files::DxfOptions& options = {}) {
   try {
     parsed(text, options);
   } catch (const rollfix::InputError& error) {

@@ -11,6 +11,7 @@ namespace identify_bounds_test {
 namespace {
 
 using namespace catalogs;
+using namespace rollfix::catalog;
 
 class Bounds : public testing::Test {
  protected:

@@ -121,8 +121,8 @@ TEST_F(Identify, weighs_a_part_alike_in_any_unit) {
     for (Reading& reading : tenths.measured.readings) {
       for (double& length : reading.length) length *= 10;
     }
-    const rollfix::PartWeight one = weight_of(0, solve(problem));
-    const rollfix::PartWeight other = weight_of(0, solve(tenths));
+    const rollfix::PartWeight one = rollfix::catalog::weight_of(0, solve(problem));
+    const rollfix::PartWeight other = rollfix::catalog::weight_of(0, solve(tenths));
     EXPECT_NEAR(other.peak, one.peak, 1e-6 * std::abs(one.peak) + 1e-6);
     EXPECT_NEAR(other.volume, one.volume, 0.01);
   }
@@ -131,7 +131,7 @@ TEST_F(Identify, weighs_a_part_alike_in_any_unit) {
 TEST(Congruent, are_places_by_the_contacts_noise_and_tangents_by_the_angles) {
   const Part part(rollfix::gallery("ellipse,a=2,b=1"));
   Problem problem{part, roll_on(part, 1, {0.5, -3}), {}, Noise{0.003, 0.02}};
-  const rollfix::Likeness likeness = likeness_of(problem);
+  const rollfix::catalog::Likeness likeness = rollfix::catalog::likeness_of(problem);
   EXPECT_EQ(likeness.length, 0.003);
   EXPECT_EQ(likeness.turn, 0.02);
   EXPECT_EQ(likeness.roll, 3);
@@ -141,7 +141,7 @@ TEST(Congruent, are_parts_whose_scales_a_roll_of_that_length_does_not_tell_apart
   const Part part(rollfix::gallery("ellipse,a=200,b=100"));
   const Part larger(rollfix::gallery("ellipse,a=200.02,b=100.01"));  // by 0.1 over a roll of 1000
   const auto are_congruent = [&](double roll) {
-    return rollfix::are_congruent(part, {0}, larger, {0}, {0.05, 0.01, roll, true});
+    return rollfix::catalog::are_congruent(part, {0}, larger, {0}, {0.05, 0.01, roll, true});
   };
   EXPECT_TRUE(are_congruent(400));
   EXPECT_FALSE(are_congruent(600));

@@ -19,8 +19,8 @@ namespace {
 using rollfix::Drawing;
 using rollfix::InputError;
 using rollfix::Outline;
-using rollfix::parse_json_outline;
 using rollfix::Vec2;
+using rollfix::files::parse_json_outline;
 using std::numbers::pi;
 using testing::AllOf;
 using testing::ElementsAre;

@@ -71,9 +71,10 @@ class Liar {
   }
 
   Json row(double s, const Json& then = nullptr, const Json& by = nullptr) const {
-    Json result = {{"start", place_json(place_of(part_, s))}, {"end", Json::array()}, {"off", Json::array()}};
+    Json result = {
+        {"start", place_json(rollfix::certifying::place_of(part_, s))}, {"end", Json::array()}, {"off", Json::array()}};
     for (std::size_t k = 0; k < readings_.size(); ++k) {
-      result["end"].push_back(place_json(place_of(part_, s + readings_[k].length[0])));
+      result["end"].push_back(place_json(rollfix::certifying::place_of(part_, s + readings_[k].length[0])));
       result["off"].push_back(f(k, s) / tolerance_);
     }
     if (!then.is_null()) result["then"] = then;
@@ -87,7 +88,7 @@ class Liar {
     Json result = {{"kind", kind},
                    {"start", base(s)},
                    {"end", end},
-                   {"at", place_json(place_of(part_, s))},
+                   {"at", place_json(rollfix::certifying::place_of(part_, s))},
                    {"point", {point.x(), point.y()}}};
     if (kind != "corner") result["tangent"] = std::remainder(part_.tangent(base(s)), 2 * shapes::kPi);
     return result;

@@ -16,6 +16,7 @@ namespace locate_tree_test {
 namespace {
 
 using namespace rollfix;
+using namespace rollfix::locating;
 using shapes::kPi;
 
 double uniform(std::mt19937_64& generator, double lo, double hi) {

@@ -25,8 +25,8 @@ using rollfix::InputError;
 using rollfix::Line;
 using rollfix::Loops;
 using rollfix::Part;
-using rollfix::Polygon;
 using rollfix::Vec2;
+using rollfix::outline::Polygon;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -266,7 +266,7 @@ TEST(Loops, short_arcs_far_from_the_origin_are_measured_without_halving) {
   for (const double offset : {0.0, 10.0, 1e4, 1e8}) {
     for (const double sweep : {1.0, 1e-2, 1e-5}) {
       int evaluations = 0;
-      const auto measure = rollfix::measure(CountedArc{Arc({offset, offset}, 10, 1, sweep), &evaluations});
+      const auto measure = rollfix::outline::measure(CountedArc{Arc({offset, offset}, 10, 1, sweep), &evaluations});
       EXPECT_LT(evaluations, 100) << offset << ' ' << sweep;
       EXPECT_NEAR(measure.length, 10 * sweep, 1e-12 * sweep);
     }
@@ -324,21 +324,21 @@ TEST(Nesting, of_polygons_that_do_not_meet_is_what_asking_each_of_each_says) {
     std::vector<Polygon> all;
     for (int j = 0; j < 12; ++j) add_rings(all, Vec2(2.5 * j, j), 1, random);
     sort_by_size(all);
-    EXPECT_EQ(rollfix::nesting_depths(all), one_by_one(all)) << k;
+    EXPECT_EQ(rollfix::outline::nesting_depths(all), one_by_one(all)) << k;
   }
 }
 
 TEST(Nesting, of_polygons_that_cross_is_one_deeper_than_the_smallest_around_the_first_point) {
   const std::vector<Polygon> all = {ring({0, 0}, 10, 16, 0), ring({0, 0}, 4, 16, 0), ring({4, 0}, 1, 16, 0),
                                     ring({-4, 0}, 1, 16, 0)};
-  EXPECT_THAT(rollfix::nesting_depths(all), ElementsAre(0, 1, 1, 2));
+  EXPECT_THAT(rollfix::outline::nesting_depths(all), ElementsAre(0, 1, 1, 2));
 }
 
 TEST(Nesting, of_rings_in_rings_is_found_without_asking_each_of_each) {
   constexpr int kRings = 20'000;
   std::vector<Polygon> all;
   for (int k = 0; k < kRings; ++k) all.push_back(ring({0, 0}, kRings - k, 16, 0));
-  const std::vector<int> depths = rollfix::nesting_depths(all);
+  const std::vector<int> depths = rollfix::outline::nesting_depths(all);
   for (int k = 0; k < kRings; ++k) ASSERT_EQ(depths[static_cast<std::size_t>(k)], k);
 }
 

@@ -46,7 +46,7 @@ TEST(KeptSamples, of_increments_leave_the_place_as_sure_as_all_of_them) {
   const rollfix::Part& part = followed.part;
   rollfix::Log all;
   all.kind = rollfix::LogKind::increments;
-  const auto kept = rollfix::meaning_on_catalog(catalog, followed, all.kind);
+  const auto kept = rollfix::catalog::meaning_on_catalog(catalog, followed, all.kind);
   for (int row = 0; row < 5000; ++row) {
     const rollfix::Sample sample = summed(part, 0.0005 * row);
     kept->add(sample);

@@ -59,7 +59,7 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
 }
 
 TEST(NormalNumbers, have_the_moments_and_the_tails_of_a_normal) {
-  NormalNumbers normal(5);
+  rolling::NormalNumbers normal(5);
   constexpr int kCount = 400000;
   std::array<double, 5> moments{};
   int beyond_two = 0;
@@ -81,7 +81,7 @@ TEST(NormalNumbers, are_the_same_everywhere) {
   const double y = 4620546740167642908.0 / std::ldexp(1.0, 63) - 1;
   const double square = x * x + y * y;
   ASSERT_LT(square, 1);
-  NormalNumbers normal(5489);
+  rolling::NormalNumbers normal(5489);
   EXPECT_NEAR(normal.next(2), 2 * x * std::sqrt(-2 * std::log(square) / square), 1e-12);
   EXPECT_NEAR(normal.next(1), y * std::sqrt(-2 * std::log(square) / square), 1e-12);
 }

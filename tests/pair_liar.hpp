@@ -78,7 +78,7 @@ struct Document {
     const Json& length = json["readings"].back()["length"];
     const std::array<double, 2> start = {part.boundary().base(s), part.boundary().base(t)};
     for (std::size_t k = 0; k < 2; ++k) {
-      const rollfix::CurvePlace at = place_of(part, start[k]);
+      const rollfix::CurvePlace at = rollfix::certifying::place_of(part, start[k]);
       const rollfix::Vec2 point = part.point(start[k]);
       placement["start"][k] = start[k];
       placement["end"][k] = part.boundary().base(start[k] + length[k].get<double>());

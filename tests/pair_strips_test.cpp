@@ -15,6 +15,7 @@ namespace pair_strips_test {
 namespace {
 
 using namespace rollfix;
+using namespace rollfix::locating;
 
 double uniform(std::mt19937_64& generator, double lo, double hi) {
   return std::uniform_real_distribution<double>(lo, hi)(generator);

@@ -10,6 +10,7 @@ namespace root_search_test {
 namespace {
 
 using namespace rollfix;
+using namespace rollfix::locating;
 
 constexpr double kRoot = 0.37;
 

@@ -54,7 +54,7 @@ Part egg_as_dxf() {
       dxf_arc({0, 0}, Egg::kBottom, -kPi / 2, 0) + dxf_arc({-egg.side, 0}, Egg::kFlank, 0, egg.turn) +
       dxf_arc(egg.top_centre(), Egg::kTop, egg.turn, kPi - egg.turn) +
       dxf_arc({egg.side, 0}, Egg::kFlank, kPi - egg.turn, kPi) + dxf_arc({0, 0}, Egg::kBottom, kPi, 1.5 * kPi);
-  return from_drawing(rollfix::parse_dxf("0\nSECTION\n2\nENTITIES\n" + arcs + "0\nENDSEC\n0\nEOF\n", "egg.dxf"));
+  return from_drawing(rollfix::files::parse_dxf("0\nSECTION\n2\nENTITIES\n" + arcs + "0\nENDSEC\n0\nEOF\n", "egg.dxf"));
 }
 
 Part egg_as_svg() {
@@ -64,8 +64,8 @@ Part egg_as_svg() {
   const std::string d =
       fmt::format("M0 3 A3 3 0 0 0 3 0 A5 5 0 0 0 {} {} A1 1 0 0 0 {} {} A5 5 0 0 0 -3 0 A3 3 0 0 0 0 3 Z", s.x(),
                   -s.y(), -s.x(), -s.y());
-  return from_drawing(
-      rollfix::parse_svg(fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg"><path d="{}"/></svg>)", d), "egg.svg"));
+  return from_drawing(rollfix::files::parse_svg(
+      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg"><path d="{}"/></svg>)", d), "egg.svg"));
 }
 
 Part egg_as_points(const Part& exact, int count) {

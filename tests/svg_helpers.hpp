@@ -22,7 +22,7 @@ using rollfix::Vec2;
 using drawings::area_of;
 using drawings::length_of;
 
-inline Drawing parse(const std::string& text) { return rollfix::parse_svg(text, "test.svg"); }
+inline Drawing parse(const std::string& text) { return rollfix::files::parse_svg(text, "test.svg"); }
 
 /// A file with this in it.
 inline std::string svg(const std::string& content, const std::string& attributes = "") {

@@ -52,7 +52,7 @@ void expect_figures(const Drawing& part, double perimeter, double area, double a
 
 class Inkscape : public testing::TestWithParam<const char*> {
  protected:
-  Drawing drawing_ = rollfix::parse_svg(file(GetParam()), GetParam());
+  Drawing drawing_ = rollfix::files::parse_svg(file(GetParam()), GetParam());
 };
 
 INSTANTIATE_TEST_SUITE_P(File, Inkscape, testing::Values("inkscape.svg", "inkscape_plain.svg"),
@@ -87,7 +87,7 @@ TEST_P(Inkscape, union_of_circle_and_rectangle) {
 }
 
 TEST(InkscapeLayers, clones_and_shapes_are_drawn_and_the_rest_named) {
-  const Drawing drawing = rollfix::parse_svg(file("inkscape_layers.svg"), "layers");
+  const Drawing drawing = rollfix::files::parse_svg(file("inkscape_layers.svg"), "layers");
   EXPECT_THAT(drawing.notes, ElementsAre("left out: 1 text", "left out: 1 hidden element"));
   EXPECT_EQ(drawing.unit, "mm");
   const Drawing drops = from(drawing, "drop");
@@ -100,7 +100,7 @@ TEST(InkscapeLayers, clones_and_shapes_are_drawn_and_the_rest_named) {
 
 TEST(InkscapeLayers, stand_where_the_page_has_them) {
   // 203.2 mm x 200 mm for 400 x 500: 0.4 mm a unit, the 43.2 mm left over in width shared by both sides.
-  const Drawing drawing = rollfix::parse_svg(file("inkscape_layers.svg"), "layers");
+  const Drawing drawing = rollfix::files::parse_svg(file("inkscape_layers.svg"), "layers");
   const Vec2 start = from(drawing, "hole").curves.at(0).curve.front();
   EXPECT_NEAR((start - Vec2(21.6 + 0.4 * (170 + 10), -0.4 * (340 + 10))).norm(), 0, 1e-12);
 }

@@ -313,10 +313,10 @@ TEST(News, of_a_catalog_are_another_part_and_another_probability) {
     return found;
   };
   const rollfix::Identified said = likeliest(3, 0.6);
-  EXPECT_TRUE(is_news_of_parts(said, likeliest(4, 0.6)));
-  EXPECT_TRUE(is_news_of_parts(said, likeliest(3, 0.71)));
-  EXPECT_TRUE(is_news_of_parts(said, likeliest(3, 0.49)));
-  EXPECT_FALSE(is_news_of_parts(said, likeliest(3, 0.69)));
+  EXPECT_TRUE(rollfix::catalog::is_news_of_parts(said, likeliest(4, 0.6)));
+  EXPECT_TRUE(rollfix::catalog::is_news_of_parts(said, likeliest(3, 0.71)));
+  EXPECT_TRUE(rollfix::catalog::is_news_of_parts(said, likeliest(3, 0.49)));
+  EXPECT_FALSE(rollfix::catalog::is_news_of_parts(said, likeliest(3, 0.69)));
 }
 
 TEST(News, are_not_where_nothing_fits) {

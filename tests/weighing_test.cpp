@@ -47,7 +47,7 @@ TEST(Weighing, rows_of_which_four_are_worth_one_are_a_quarter_of_the_evidence_ag
   answer.diagnoses[0].cause = rollfix::Cause::radius;
   answer.diagnoses[0].log_odds = 2;
   std::optional<Belief> belief = rollfix::believe(problem, rollfix::observe(problem));
-  rollfix::conclude(*belief, answer);
+  rollfix::answer::conclude(*belief, answer, false, false);
   EXPECT_NEAR(answer.placements[0].probability, 1 / (1 + std::exp(0.5)), 1e-12);
   EXPECT_NEAR(answer.weighing->rest, 1 - answer.placements[0].probability, 1e-12);
 }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "either_way.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "weighing.hpp"
@@ -20,7 +19,7 @@
 // Follows docs/belief.md, "What may be wrong".
 // Idea: each usual mistake is mended and the rows are weighed again, by a few of them first. Those that explain the
 // rows are said, the likeliest first; else those with which they fit far better.
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 // A scale that differs from 1 by less, in standard deviations, explains nothing, and two that differ by less than this
@@ -164,7 +163,7 @@ class Diagnostician {
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
     const bool of_contact = problem_.measured.is_log() && problem_.measured.log->kind == LogKind::contact;
     const bool has_places = problem_.noise->position > 0 || problem_.pose;
-    if (of_contact && has_places) take(Cause::both_clockwise, in_mirror(problem_));
+    if (of_contact && has_places) take(Cause::both_clockwise, View{true, false}.of(problem_));
   }
 
   /// Logs or radii of two fingers that were given in the wrong order.
@@ -314,4 +313,4 @@ std::vector<Diagnosis> diagnose(const Problem& problem, const Observation& obser
   return Diagnostician(problem, observed, belief).diagnoses();
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "observation.hpp"
+#include "steps.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/solve.hpp"
 
-namespace rollfix {
+namespace rollfix::answer {
 
 /// How the log's columns are to be read where that is the mistake: those that change, and those that are not found by
 /// their own names. None where no column changes, or no header is known.
@@ -77,4 +77,4 @@ class LengthScales {
 /// does. Nothing where they fit.
 std::vector<Diagnosis> diagnose(const Problem& problem, const Observation& observed, Belief& belief);
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

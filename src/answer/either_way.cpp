@@ -8,94 +8,13 @@
 #include <vector>
 
 #include "belief/posterior.hpp"
-#include "log/mirrored.hpp"
-#include "rollfix/error.hpp"
 
-// A problem the other way round: as a mirror shows it, and with lengths that count clockwise.
+// Lengths that may count either way round: two answers made one.
 // Notation:
-//   (L, theta)      a reading; in a mirror (-L, -theta), clockwise (-L, theta)
-//   (u, psi)        a contact; in a mirror (-u, pi - psi), of a jaw (-u, -psi); a centre (x, y) becomes (-x, y)
 //   way             0: counter-clockwise, 1: clockwise; with noise each has its evidence, and half the prior
-// Follows docs/rolling.md, "Signs" and "Against the outline's direction".
-namespace rollfix {
+// Follows docs/rolling.md, "Against the outline's direction".
+namespace rollfix::answer {
 namespace {
-
-Reading mirrored(Reading reading) {
-  for (double& length : reading.length) length = -length;
-  reading.turn = -reading.turn;
-  return reading;
-}
-
-Pose mirrored(const Pose& pose) { return {-pose.x, pose.y, -pose.heading}; }
-
-void mirror(Sensitivity& sensitivity) {
-  for (auto& readings : sensitivity.per_turn) {
-    for (double& value : readings) value = -value;
-  }
-  for (auto& readings : sensitivity.per_length) {
-    for (auto& lengths : readings) {
-      for (double& value : lengths) value = -value;
-    }
-  }
-  for (double& value : sensitivity.per_facing) value = -value;
-}
-
-void mirror(Placement& placement) {
-  mirror(placement.sensitivity);
-  for (Pose& pose : placement.pose) pose = mirrored(pose);
-  if (!placement.pose_spread) return;
-  placement.pose_spread->mean = mirrored(placement.pose_spread->mean);
-  const Eigen::Vector3d signs(-1, 1, -1);
-  placement.pose_spread->covariance =
-      Eigen::Matrix3d(signs.asDiagonal() * placement.pose_spread->covariance * signs.asDiagonal());
-}
-
-}  // namespace
-
-Problem in_mirror(const Problem& problem) {
-  Problem result = problem;
-  for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
-  for (Reading& reading : result.measured.readings) reading = mirrored(reading);
-  if (result.facing) result.facing = -*result.facing;
-  if (result.pose) result.pose->mean = mirrored(result.pose->mean);
-  if (!result.measured.is_log()) return result;
-  std::vector<FingerRows>& fingers = result.measured.log->fingers;
-  for (std::size_t which = 0; which < fingers.size(); ++which) {
-    mirror(fingers[which], finger_of(problem.fingers, which));
-  }
-  return result;
-}
-
-void out_of_mirror(const Problem& problem, Answer& answer) {
-  answer.mirrored = true;
-  answer.fingers = problem.fingers;
-  for (Reading& reading : answer.readings) reading = mirrored(reading);
-  if (answer.facing) answer.facing = -*answer.facing;
-  for (Placement& placement : answer.placements) mirror(placement);
-  for (Impossible& item : answer.impossible) mirror(item.placement);
-  if (!answer.weighing) return;
-  if (answer.weighing->pose) answer.weighing->pose->mean = mirrored(answer.weighing->pose->mean);
-  for (Placement& placement : answer.weighing->improbable) mirror(placement);
-}
-
-namespace {
-
-/// Sensitivities are to the lengths as they were given.
-void count_clockwise(Placement& placement) {
-  placement.clockwise = true;
-  for (auto& readings : placement.sensitivity.per_length) {
-    for (auto& lengths : readings) {
-      for (double& value : lengths) value = -value;
-    }
-  }
-}
-
-void count_clockwise(Answer& answer) {
-  for (Placement& placement : answer.placements) count_clockwise(placement);
-  for (Impossible& item : answer.impossible) count_clockwise(item.placement);
-  if (!answer.weighing) return;
-  for (Placement& placement : answer.weighing->improbable) count_clockwise(placement);
-}
 
 template <class Entries>
 void append(Entries& all, const Entries& more) {
@@ -248,29 +167,7 @@ Answer either_weighed(Answer one, Answer other) {
 
 }  // namespace
 
-Problem counted_clockwise(const Problem& problem) {
-  Problem result = problem;
-  for (Reading& reading : result.measured.readings) {
-    for (double& length : reading.length) length = -length;
-  }
-  if (!result.measured.is_log()) return result;
-  if (result.measured.log->kind == LogKind::contact) {
-    throw InputError("`either_way`: " + result.measured.log->name +
-                     " has u and psi, which say themselves which way round it went: expected a log of lengths");
-  }
-  for (FingerRows& rows : result.measured.log->fingers) {
-    for (double& length : rows.length) length = -length;
-  }
-  return result;
-}
-
-Answer only_way(Answer answer, bool is_clockwise, const std::string& why_not_the_other) {
-  if (is_clockwise) {
-    count_clockwise(answer);
-    for (Reading& reading : answer.readings) {
-      for (double& length : reading.length) length = -length;
-    }
-  }
+Answer only_way(Answer answer, const std::string& why_not_the_other) {
   drop_other_way(answer.diagnoses);
   answer.either_way = true;
   answer.other_way = why_not_the_other;
@@ -278,11 +175,10 @@ Answer only_way(Answer answer, bool is_clockwise, const std::string& why_not_the
 }
 
 Answer either_of(Answer counter_clockwise, Answer clockwise) {
-  count_clockwise(clockwise);
   Answer both = counter_clockwise.weighing ? either_weighed(std::move(counter_clockwise), std::move(clockwise))
                                            : either_searched(std::move(counter_clockwise), clockwise);
   both.either_way = true;
   return both;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

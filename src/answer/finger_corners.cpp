@@ -29,7 +29,7 @@
 // first such row, and the rows before it say only that the first contact was L before it. With noise the likelihood of
 // a turn that is known to an interval is flat where some of the interval is possible, and falls outside as that of any
 // other turn. Rows of one pivot share their errors, so that only the worst of all counts.
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 // 95 % of a normal distribution are within so many standard deviations.
@@ -209,10 +209,6 @@ void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answe
   }
 }
 
-void to_first_contacts(const Reading& way, const Part& part, const Noise& noise, Mode& mode) {
-  WayBack(way.length, part, noise).move(mode);
-}
-
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners) {
   const Log& log = *problem.measured.log;
   std::vector<std::size_t> rows = rows_at(log, problem.at);
@@ -239,10 +235,6 @@ void to_last_contacts(const Observation& observed, const Noise& noise, Answer& a
   for (std::vector<Placement>* placements : {&answer.placements, &answer.weighing->improbable}) {
     for (Placement& placement : *placements) go_on(further, answer.part, noise, placement);
   }
-}
-
-void to_last_contacts(const Reading& further, const Part& part, const Noise& noise, Mode& mode) {
-  go_on(further.length, part, noise, mode);
 }
 
 namespace {
@@ -363,6 +355,18 @@ CornerRowsSay weigh_corner_rows(const Problem& problem, const LeadingRows& leadi
   answer.placements = std::move(listed);
   answer.dropped.improbable = answer.weighing->improbable.size();
   return {true, least > Fit::kMostSigmas * Fit::kMostSigmas};
+}
+
+}  // namespace rollfix::answer
+
+namespace rollfix {
+
+void to_first_contacts(const Reading& way, const Part& part, const Noise& noise, Mode& mode) {
+  answer::WayBack(way.length, part, noise).move(mode);
+}
+
+void to_last_contacts(const Reading& further, const Part& part, const Noise& noise, Mode& mode) {
+  answer::go_on(further.length, part, noise, mode);
 }
 
 }  // namespace rollfix

@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "observation.hpp"
+#include "steps.hpp"
 #include "rollfix/solve.hpp"
 
 // Logs of fingers with corners: on them a row's u does not tell how the finger's normal is turned, off them it does,
 // whatever lay between.
-namespace rollfix {
+namespace rollfix::answer {
 
 /// The rows at the beginning of a log in which a finger is on a corner of its own: all others are measured from the
 /// first row behind them.
@@ -30,17 +30,12 @@ Problem without(const LeadingRows& leading, const Problem& problem);
 /// do.
 void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answer& answer);
 
-/// The same of a mode that was found from the row that lies `way` behind the first contacts.
-void to_first_contacts(const Reading& way, const Part& part, const Noise& noise, Mode& mode);
-
 /// The rows to search with: those that are asked for; else the last, and before it, if that is on a corner, the last
 /// one that is not. Of two fingers the middle one and the last, each the nearest before it that is off corners.
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners);
 
 /// With noise rows on corners at the end of the log were not weighed: the last contacts are that much further on.
 void to_last_contacts(const Observation& observed, const Noise& noise, Answer& answer);
-/// The same of a mode: the last contacts lie `further` behind those of the last row that was weighed.
-void to_last_contacts(const Reading& further, const Part& part, const Noise& noise, Mode& mode);
 
 /// What rows on corners of the fingers say.
 struct CornerRowsSay {
@@ -55,4 +50,4 @@ struct CornerRowsSay {
 CornerRowsSay weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const Observation& observed,
                                 Answer& answer);
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

@@ -16,7 +16,7 @@
 // Follows docs/belief.md, "What may be wrong".
 // Idea: scales are tried so near together that the true one is within reach of an open scale about one of them. From
 // the best valleys on each belief says by how much more lengths are off, until it says none.
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 // Scales of lengths are tried as far apart as this, each with an open scale about it of this standard deviation.
@@ -174,4 +174,4 @@ std::optional<Belief> LengthScales::belief_with(const Whose& whose, double scale
   }
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

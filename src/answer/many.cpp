@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-#include "crew.hpp"
+#include "work/crew.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

@@ -1,4 +1,4 @@
-#include "observation.hpp"
+#include "steps.hpp"
 
 #include <fmt/format.h>
 
@@ -96,7 +96,7 @@ Observation observe_log(const Problem& problem) {
   observed.facing = facing(log, problem.fingers);
   observed.rolls = readings_as_given(log, problem.fingers, noise);
   observed.on_corners = rows_on_corners(log, problem.fingers, noise);
-  const std::vector<std::size_t> rows = rows_to_search(problem, observed.on_corners);
+  const std::vector<std::size_t> rows = answer::rows_to_search(problem, observed.on_corners);
   observed.times = times_of(log, rows);
   if (!observed.on_corners.empty()) {
     observed.readings.clear();

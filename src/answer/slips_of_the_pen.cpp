@@ -7,7 +7,7 @@
 #include "diagnosis.hpp"
 #include "outline/turn.hpp"
 
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 constexpr std::string_view kDegrees = "deg";
@@ -182,4 +182,4 @@ Problem without(const SlipOfThePen& slip, const Problem& problem) {
   return mended;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

@@ -11,24 +11,20 @@
 
 #include "either_way.hpp"
 #include "finger_corners.hpp"
-#include "observation.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
+#include "steps.hpp"
 #include "weighing.hpp"
 
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 // With noise the search only says what kinds there are; with two fingers a wide tolerance is not worth more boxes than
 // this, and where nearly any direction would do it has nothing to say.
 constexpr std::size_t kBudgetWithNoise = 30000;
 constexpr double kWidestSearch = 0.5;  // radians
-// A million normal numbers are within so many standard deviations.
-constexpr double kFarthestRow = 5;
-// A disk with an uncertain radius is not taken to be smaller than this share of what was said.
-constexpr double kSmallestDisk = 0.01;
 
 bool is_in_another_unit(const Log& log, const Part& part) {
   return !log.unit.empty() && !part.unit().empty() && log.unit != part.unit();
@@ -40,8 +36,18 @@ Tolerance tolerance_of(const Problem& problem, const Observation& observed, std:
                 : tolerance_from_digits(problem.part, observed.roundings, observed.readings);
 }
 
-/// Of one finger: with what the rows before the first one say as well.
-Search search_from_row(const LeadingRows& leading, const LocateOptions& options, const Answer& answer) {
+/// Everything that fits the readings.
+Search search(const Problem& problem, const LeadingRows& leading, const Answer& answer) {
+  const Doing doing("searching for all places that fit");
+  LocateOptions options;
+  options.tolerance = answer.tolerance.value;
+  options.facing = answer.facing;
+  const bool of_two_with_noise = answer.tolerance.source == Tolerance::Source::noise && answer.finger_count() == 2;
+  if (of_two_with_noise) options.budget = kBudgetWithNoise;
+  if (problem.budget) options.budget = *problem.budget;
+  if (of_two_with_noise && options.tolerance > kWidestSearch) return {};
+  if (leading.readings.empty()) return locate(answer.part, answer.readings, options);
+  // Of one finger: with what the rows before the first one say as well.
   std::vector<Reading> readings = answer.readings;
   readings.insert(readings.end(), leading.readings.begin(), leading.readings.end());
   Search found = locate(answer.part, readings, options);
@@ -52,18 +58,7 @@ Search search_from_row(const LeadingRows& leading, const LocateOptions& options,
   return found;
 }
 
-/// Everything that fits the readings.
-void search(const Problem& problem, const LeadingRows& leading, Answer& answer) {
-  const Doing doing("searching for all places that fit");
-  LocateOptions options;
-  options.tolerance = answer.tolerance.value;
-  options.facing = answer.facing;
-  const bool of_two_with_noise = answer.tolerance.source == Tolerance::Source::noise && answer.finger_count() == 2;
-  if (of_two_with_noise) options.budget = kBudgetWithNoise;
-  if (problem.budget) options.budget = *problem.budget;
-  if (of_two_with_noise && options.tolerance > kWidestSearch) return;
-  Search found = leading.readings.empty() ? locate(answer.part, answer.readings, options)
-                                          : search_from_row(leading, options, answer);
+void take(Search found, Answer& answer) {
   answer.status = found.status;
   answer.placements = std::move(found.placements);
   answer.unresolved = std::move(found.unresolved);
@@ -72,67 +67,21 @@ void search(const Problem& problem, const LeadingRows& leading, Answer& answer) 
 
 /// Of a continuum of pairs those that fit all rows are left: the search is asked about one row after the other that the
 /// place which stands for it does not fit, while something fits them all.
-void search_all_rows(const Problem& problem, const Observation& observed, Answer& answer) {
+Answer search_all_rows(const Problem& problem, const Observation& observed, Answer answer) {
   std::vector<std::size_t> asked;
   while (const std::optional<std::size_t> row = row_to_ask(problem, observed, answer)) {
-    if (std::find(asked.begin(), asked.end(), *row) != asked.end()) return;
+    if (std::find(asked.begin(), asked.end(), *row) != asked.end()) break;
     asked.push_back(*row);
     Answer next = answer;
     const auto at = next.readings.end() - 1;  // the last one stays so
     next.readings.insert(at, observed.rolls[*row]);
     if (!next.times.empty()) next.times.insert(next.times.end() - 1, next.pose_time[*row]);
     put_on_corners(problem.part, observed.length_error(), next.readings);
-    search(problem, {}, next);
-    if (next.status != Status::complete || next.placements.empty()) return;
+    take(search(problem, {}, next), next);
+    if (next.status != Status::complete || next.placements.empty()) break;
     answer = std::move(next);
   }
-}
-
-/// The smallest disk that a finger may be: it lies within any larger one that touches at the same contact, so that all
-/// of them hit what it hits.
-Finger smallest(const Finger& finger, double radius_sd) {
-  if (!finger.is_disk()) return finger;
-  const double radius = finger.disk()->radius;
-  return disk(std::max(radius - kFarthestRow * radius_sd, kSmallestDisk * radius));
-}
-
-PerFinger<Reach> reaches_of(const Problem& problem, std::size_t count) {
-  const double radius_sd = problem.noise ? problem.noise->radius : 0;
-  const Finger a = smallest(problem.fingers.front(), radius_sd), b = smallest(problem.fingers.back(), radius_sd);
-  const Reach reach = reach_of(problem.part, a);
-  if (count == 1) return reach;
-  return {reach, a.curvature(0) == b.curvature(0) ? reach : reach_of(problem.part, b)};
-}
-
-/// How far a rolled length may be off: by its digits, and by its noise.
-double length_error(const Problem& problem, const Observation& observed) {
-  const double digits = observed.length_error();
-  if (!problem.noise) return digits;
-  double travelled = 0;
-  for (const Reading& roll : observed.rolls) {
-    for (const double length : roll.length) travelled = std::max(travelled, std::abs(length));
-  }
-  const Noise& noise = *problem.noise;
-  double scale = std::hypot(noise.slip, noise.part.length);
-  for (const Finger& finger : problem.fingers) scale = std::hypot(scale, noise.radius * finger.curvature(0));
-  // Of the first contact and of the row.
-  const double contact = std::hypot(noise.contact, noise.contact);
-  return digits + kFarthestRow * std::hypot(contact, scale * travelled);
-}
-
-/// What the fingers can't do goes: where they can be is known if all of them are disks or jaws.
-void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer) {
-  const Doing doing("looking where the fingers can reach");
-  if (answer.fingers.empty()) return;
-  answer.has_reach = std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach);
-  const double error = length_error(problem, observed);
-  answer.impossible = answer.has_reach
-                          ? drop_unreachable(answer.part, reaches_of(problem, answer.finger_count()), answer.readings,
-                                             answer.placements, observed.rolls, error, problem.may_overlap)
-                          : drop_overlapping(problem, observed, error, answer.placements);
-  for (const Impossible& item : answer.impossible) {
-    ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
-  }
+  return answer;
 }
 
 /// Without noise. Rows that contradict every place are wrong themselves: the places count all the same.
@@ -169,11 +118,8 @@ Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) 
   return result;
 }
 
-/// `leading`: rows before the log's first one, what they say of it.
-Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool explains) {
-  const Doing doing("weighing the rows against every place");
-  const Observation observed = observe(problem);
-  std::optional<Belief> belief = believe(problem, observed);
+/// What was given, as it is searched with.
+Answer answer_to(const Problem& problem, const LeadingRows& leading, const Observation& observed) {
   Answer answer{problem.part, problem.fingers};
   answer.readings = observed.readings;
   answer.times = observed.times;
@@ -185,21 +131,55 @@ Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool e
       leading.count + static_cast<std::size_t>(std::count(on_corners.begin(), on_corners.end(), true));
   answer.corner_rows.first = leading.count > 0 || (!on_corners.empty() && on_corners.front());
   answer.corner_rows.last = !on_corners.empty() && on_corners.back();
-  answer.tolerance = tolerance_of(problem, observed, belief);
-  search(problem, leading, answer);
-  const bool all_rows_count = !belief && problem.measured.is_log() && !problem.tolerance && problem.at.empty();
-  if (all_rows_count && leading.count == 0) search_all_rows(problem, observed, answer);
-  bool fits_badly = belief && weigh(problem, observed, explains, *belief, answer);
-  drop_impossible(problem, observed, answer);
-  if (belief) {
-    const CornerRowsSay corner_rows = weigh_corner_rows(problem, leading, observed, answer);
-    conclude(*belief, answer, corner_rows.are_heeded, fits_badly || corner_rows.fits_badly);
-    to_last_contacts(observed, *problem.noise, answer);
-  }
-  add_poses(problem, answer);
-  if (all_rows_count) fits_badly = !check_rows(problem, observed, explains, answer);
-  if (!belief) answer.verdict = verdict_of(answer, fits_badly);
   return answer;
+}
+
+/// Without noise a few rows of a log are searched with, and all of them are held against what was found.
+Answer solve_exactly(const Problem& problem, const LeadingRows& leading, const Observation& observed, bool explains,
+                     Answer answer) {
+  take(search(problem, leading, answer), answer);
+  const bool all_rows_count = problem.measured.is_log() && !problem.tolerance && problem.at.empty();
+  if (all_rows_count && leading.count == 0) answer = search_all_rows(problem, observed, std::move(answer));
+  drop_impossible(problem, observed, answer);
+  add_poses(problem, answer);
+  if (!all_rows_count) {
+    answer.verdict = verdict_of(answer.status, answer.placements);
+    return answer;
+  }
+  RowsChecked rows = check_rows(problem, observed, explains, answer);
+  answer.placements = std::move(rows.placements);
+  answer.diagnoses = std::move(rows.diagnoses);
+  answer.verdict = verdict_of(answer, rows.fits_badly);
+  return answer;
+}
+
+/// With noise the search says what kind of place each is, and all rows together how probable.
+Answer solve_with_noise(const Problem& problem, const LeadingRows& leading, const Observation& observed, bool explains,
+                        Belief& belief, Answer answer) {
+  take(search(problem, leading, answer), answer);
+  RowsWeighed rows = weigh(problem, observed, explains, answer, belief);
+  answer.status = rows.status;
+  answer.placements = std::move(rows.placements);
+  answer.dropped.improbable = rows.weighing.improbable.size();
+  answer.weighing = std::move(rows.weighing);
+  answer.diagnoses = std::move(rows.diagnoses);
+  drop_impossible(problem, observed, answer);
+  const CornerRowsSay corner_rows = weigh_corner_rows(problem, leading, observed, answer);
+  conclude(belief, answer, corner_rows.are_heeded, rows.centres_contradict || corner_rows.fits_badly);
+  to_last_contacts(observed, *problem.noise, answer);
+  add_poses(problem, answer);
+  return answer;
+}
+
+/// `leading`: rows before the log's first one, what they say of it.
+Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool explains) {
+  const Doing doing("weighing the rows against every place");
+  const Observation observed = observe(problem);
+  std::optional<Belief> belief = believe(problem, observed);
+  Answer answer = answer_to(problem, leading, observed);
+  answer.tolerance = tolerance_of(problem, observed, belief);
+  return belief ? solve_with_noise(problem, leading, observed, explains, *belief, std::move(answer))
+                : solve_exactly(problem, leading, observed, explains, std::move(answer));
 }
 
 Answer solve_roll(const Problem& problem, bool explains) {
@@ -212,20 +192,21 @@ Answer solve_roll(const Problem& problem, bool explains) {
   return answer;
 }
 
-/// Of one way round. `explains`: what may be wrong is looked for where the rows fit badly.
-Answer solve_one_way(const Problem& problem, bool explains) {
-  if (!problem.robust || !problem.measured.is_log()) return solve_roll(problem, explains);
+/// As it is seen. `explains`: what may be wrong is looked for where the rows fit badly.
+Answer solve_seen(const Problem& problem, const View& view, bool explains) {
+  Problem seen = view.of(problem);
   std::vector<std::size_t> strays;
-  const Problem cleaned = without_jumps(problem, strays);
-  Answer answer = solve_roll(cleaned, explains);
+  if (seen.robust && seen.measured.is_log()) seen = without_jumps(seen, strays);
+  Answer answer = solve_roll(seen, explains);
   answer.strays = std::move(strays);
+  view.undo(problem, answer);
   return answer;
 }
 
 /// Nothing, and why, where the rows can't follow from one another.
-std::optional<Answer> try_one_way(const Problem& problem, std::string& why_not) {
+std::optional<Answer> try_one_way(const Problem& problem, const View& view, std::string& why_not) {
   try {
-    return solve_one_way(problem, false);
+    return solve_seen(problem, view, false);
   } catch (const InputError& error) {
     why_not = error.what();
     return std::nullopt;
@@ -233,49 +214,40 @@ std::optional<Answer> try_one_way(const Problem& problem, std::string& why_not) 
 }
 
 /// Both ways round. What can't be one way can be the other way: that is no mistake then.
-Answer solve_either_way(const Problem& problem) {
-  const std::array<Problem, 2> ways{problem, counted_clockwise(problem)};
+Answer solve_either_way(const Problem& problem, const std::vector<View>& ways) {
   std::array<std::string, 2> why_not;
-  std::array<std::optional<Answer>, 2> answers{try_one_way(ways[0], why_not[0]), try_one_way(ways[1], why_not[1])};
+  std::array<std::optional<Answer>, 2> answers{try_one_way(problem, ways[0], why_not[0]),
+                                               try_one_way(problem, ways[1], why_not[1])};
   if (!answers[0] && !answers[1]) throw InputError(why_not[0]);
   const auto both = [&] {
     if (answers[0] && answers[1]) return either_of(*answers[0], *answers[1]);
-    return answers[0] ? only_way(*answers[0], false, why_not[1]) : only_way(*answers[1], true, why_not[0]);
+    return answers[0] ? only_way(*answers[0], why_not[1]) : only_way(*answers[1], why_not[0]);
   };
   Answer answer = both();
   if (!problem.diagnose) return answer;
   if (!answer.verdict.fits_badly && answer.verdict.name != Verdict::inconsistent) return answer;
   for (const std::size_t way : {0U, 1U}) {
-    if (answers[way]) answers[way] = solve_one_way(ways[way], true);
+    if (answers[way]) answers[way] = solve_seen(problem, ways[way], true);
   }
   return both();
 }
 
 }  // namespace
+}  // namespace rollfix::answer
 
-bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
-
-Reach reach_of(const Part& part, const Finger& finger) {
-  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
-}
+namespace rollfix {
 
 Answer solve(const Problem& problem) {
   if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
   require_noise(problem);
-  if (problem.measured.is_log() && is_in_another_unit(*problem.measured.log, problem.part)) {
+  if (problem.measured.is_log() && answer::is_in_another_unit(*problem.measured.log, problem.part)) {
     Problem converted = problem;
     converted.measured.log = in_unit(*problem.measured.log, problem.part.unit(), problem.fingers);
     return solve(converted);
   }
-  if (problem.mirrored) {
-    Problem seen = in_mirror(problem);
-    seen.mirrored = false;
-    Answer answer = solve(seen);
-    out_of_mirror(problem, answer);
-    return answer;
-  }
-  if (problem.either_way) return solve_either_way(problem);
-  return solve_one_way(problem, problem.diagnose);
+  const std::vector<View> views = views_of(problem);
+  return views.size() == 1 ? answer::solve_seen(problem, views.front(), problem.diagnose)
+                           : answer::solve_either_way(problem, views);
 }
 
 }  // namespace rollfix

@@ -7,36 +7,22 @@
 
 #include "diagnosis.hpp"
 #include "locate/corner_sets.hpp"
+#include "log/jitter.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 
 // Notation:
-//   D^6 u           sixth differences of a column: of a smooth course next to nothing, of noise their variance is
-//                   (12 choose 6) sd^2, and neighbours are correlated by -6/7
-//   jitter          sd of what is not smooth, by the median of |D^6 u|, `kMedianSize` of their standard deviation
-//   rounding        half a unit of a column's last decimal
 //   off             by how much a row misses a placement, against what digits leave open: `kOverTolerance` times
 // Follows docs/belief.md, "Logs without noise".
 // Idea: without noise a few rows are searched with, and all of them are held against what was found. Where none fits,
 // the rows are weighed with the noise that they show; else with one so fine that the least mistake shows, then with
 // that of usual sensors.
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
-// Rows that a course is told by at least.
-constexpr std::size_t kFewestRows = 12;
-// Differences of this order leave little of a smooth course, and of noise all; neighbours are then correlated by -6/7.
-constexpr int kOrder = 6;
-constexpr double kLeastAgainst = 0.6;
-// The median of a normal deviate's size.
-constexpr double kMedianSize = 0.6744897501960817;
-// Rows jitter where they are off by this many times what their digits leave open.
-constexpr double kOverDigits = 4;
 // A row contradicts a placement where it is off by this many times what the digits leave open.
 constexpr double kOverTolerance = 10;
-// Decimals that are looked at to tell how a column was rounded.
-constexpr int kMostDecimals = 15;
 // What logs whose rows do not jitter are weighed with to find out what is wrong: so fine first that the least mistake
 // shows, then as sensors are. Shares of the perimeter, radians.
 constexpr double kFineContact = 2e-6;
@@ -45,40 +31,6 @@ constexpr double kUsualContact = 1e-3;
 constexpr double kUsualAngle = 5e-3;
 // And none with less than this.
 constexpr double kLeastContact = 1e-6;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Neighbours' correlation.
-double correlation(const std::vector<double>& values) {
-  double products = 0;
-  double squares = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    squares += values[k] * values[k];
-    if (k > 0) products += values[k] * values[k - 1];
-  }
-  return squares > 0 ? products / squares : 0;
-}
-
-/// The standard deviation of what is not smooth in a column: of differences of its values, 0 where these are not as
-/// noise leaves them, each against the one before.
-double jitter(std::vector<double> values) {
-  double weights = 1;  // the sum of the squared binomials: (2m choose m)
-  for (int order = 1; order <= kOrder; ++order) {
-    for (std::size_t k = 0; k + 1 < values.size(); ++k) values[k] = values[k + 1] - values[k];
-    values.pop_back();
-    weights *= 2.0 * (2.0 * order - 1) / order;
-  }
-  // Of white noise it is -m / (m + 1).
-  if (correlation(values) > -kLeastAgainst) return 0;
-  for (double& value : values) value = std::abs(value);
-  return median(std::move(values)) / kMedianSize / std::sqrt(weights);
-}
-
-double beyond_digits(double sd, double half_unit) { return sd > kOverDigits * half_unit ? sd : 0; }
 
 double widest(const Placement& placement) {
   double most = 0;
@@ -207,62 +159,20 @@ std::vector<Diagnosis> diagnoses_of(const Problem& problem, const Observation& o
 
 }  // namespace
 
-std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>& fingers) {
-  if (log.rows() < kFewestRows) return std::nullopt;
-  Noise noise;
-  for (std::size_t which = 0; which < log.fingers.size(); ++which) {
-    const FingerRows& rows = log.fingers[which];
-    if (log.kind == LogKind::contact) {
-      const Finger& finger = *finger_of(fingers, which);
-      std::vector<double> u;
-      std::vector<double> psi;
-      for (const Contact& contact : contacts_of(rows, finger)) {
-        u.push_back(contact.u);
-        psi.push_back(contact.psi);
-      }
-      noise.contact = std::max(noise.contact, finger.length_per_u() * beyond_digits(jitter(u), rows.place_rounding));
-      noise.angle = std::max(noise.angle, beyond_digits(jitter(psi), rows.angle_rounding));
-    } else {
-      noise.contact = std::max(noise.contact, beyond_digits(jitter(rows.length), rows.place_rounding));
-      noise.angle = std::max(noise.angle, beyond_digits(jitter(rows.turn), rows.angle_rounding));
-    }
-  }
-  if (noise.contact <= 0 && noise.angle <= 0) return std::nullopt;
-  return noise;
-}
-
-double rounding_of_column(const std::vector<double>& values) {
-  double unit = 1;
-  for (int decimals = 0; decimals < kMostDecimals; ++decimals, unit /= 10) {
-    const bool is_whole = std::all_of(values.begin(), values.end(), [&](double value) {
-      return std::abs(value / unit - std::round(value / unit)) <= 1e-6;
-    });
-    if (is_whole) return 0.5 * unit;
-  }
-  return 0;
-}
-
-double jitter_of_centres(const Log& log) {
-  double most = 0;
-  for (const FingerRows& rows : log.fingers) {
-    if (rows.x.size() >= kFewestRows) most = std::max({most, jitter(rows.x), jitter(rows.y)});
-  }
-  return most;
-}
-
 std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer) {
   return RowsCheck(problem, observed, answer).row_to_ask();
 }
 
-bool check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {
+RowsChecked check_rows(const Problem& problem, const Observation& observed, bool explains, const Answer& answer) {
   const RowsCheck check(problem, observed, answer);
-  for (Placement& placement : answer.placements) placement.is_contradicted = check.contradicts(placement);
+  RowsChecked rows{answer.placements};
+  for (Placement& placement : rows.placements) placement.is_contradicted = check.contradicts(placement);
   const auto contradicted =
-      std::stable_partition(answer.placements.begin(), answer.placements.end(),
+      std::stable_partition(rows.placements.begin(), rows.placements.end(),
                             [](const Placement& placement) { return !placement.is_contradicted; });
-  if (contradicted != answer.placements.begin()) return true;
-  if (explains) answer.diagnoses = diagnoses_of(problem, observed);
-  return false;
+  rows.fits_badly = contradicted == rows.placements.begin();
+  if (rows.fits_badly && explains) rows.diagnoses = diagnoses_of(problem, observed);
+  return rows;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

@@ -1,14 +1,11 @@
 #include "weighing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "diagnosis.hpp"
-#include "part/part_data.hpp"
-#include "rollfix/error.hpp"
+#include "log/jitter.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:
@@ -18,7 +15,7 @@
 // Follows docs/belief.md, "What the verdict says", "What may be wrong", and of centres "Centres as evidence".
 // Idea: what the samples leave takes the place of what the search found. Centres that nobody called evidence still must
 // not contradict the answer: they are weighed as if they were known badly.
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 // A posterior of two fingers is complete when it leaves out no more than this.
@@ -40,17 +37,6 @@ std::optional<MeasuredContact> first_felt(const Problem& problem, std::size_t wh
   const Contact first{rows.u.front(), rows.psi.front()};
   const Vec2 where = Vec2(rows.x.front(), rows.y.front()) - centre_of(finger, Vec2::Zero(), first);
   return MeasuredContact{where, facing(finger, first), finger.curvature(first.u)};
-}
-
-void add_contacts(const Problem& problem, const Observation& observed, std::size_t row, bool has_centres,
-                  Sample& sample) {
-  const std::vector<FingerRows>& fingers = problem.measured.log->fingers;
-  sample.contact = PerFinger<Contact>::of(fingers.size());
-  if (has_centres) sample.centre = PerFinger<Vec2>::of(fingers.size(), Vec2::Zero());
-  for (std::size_t which = 0; which < fingers.size(); ++which) {
-    (*sample.contact)[which] = (*observed.contacts)[which][row];
-    if (has_centres) (*sample.centre)[which] = Vec2(fingers[which].x[row], fingers[which].y[row]);
-  }
 }
 
 void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placement>& placements) {
@@ -108,85 +94,6 @@ std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observ
 
 }  // namespace
 
-LogKind kind_of(const Problem& problem) {
-  return problem.measured.is_log() ? problem.measured.log->kind : LogKind::travelled;
-}
-
-const char* name_of(const PosePrior& pose) { return std::isinf(pose.place_sd) ? "heading" : "pose"; }
-
-void require_noise(const Problem& problem) {
-  if (problem.noise) return;
-  if (problem.prior) throw InputError("`prior` weighs places against noisy readings: give `noise` as well");
-  if (problem.pose) {
-    throw InputError(fmt::format("`{}` is weighed against noisy rows: give `noise` as well", name_of(*problem.pose)));
-  }
-  if (problem.robust) throw InputError("`robust` is about noise: give `noise` as well");
-}
-
-double finger_curvature(const Problem& problem, std::size_t which, std::size_t row) {
-  if (problem.fingers.empty()) return 0;
-  // Where u is wrapped makes no difference to the curvature there.
-  const double u = kind_of(problem) == LogKind::contact ? problem.measured.log->fingers[which].u[row] : 0;
-  return finger_of(problem.fingers, which)->curvature(u);
-}
-
-std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed) {
-  if (!problem.noise) return std::nullopt;
-  const std::size_t fingers = observed.readings.front().fingers();
-  FingerGeometry contacts{PerFinger<double>::of(fingers), observed.facing, problem.fingers};
-  const bool has_centres =
-      observed.contacts && problem.measured.log->fingers.front().x.size() == problem.measured.log->rows();
-  if (problem.noise->position > 0 && !has_centres) {
-    throw InputError(
-        "`noise`: position is of the fingers' centres, expected a log of u and psi with their columns x and y");
-  }
-  for (std::size_t which = 0; which < fingers; ++which)
-    contacts.finger_curvature[which] = finger_curvature(problem, which, 0);
-  BeliefOptions options;
-  options.noise = *problem.noise;
-  options.prior = problem.prior;
-  options.pose = problem.pose;
-  options.robust = problem.robust;
-  options.scale_sd = supposed.scale_sd;
-  options.scale_of = supposed.scale_of;
-  options.glance = supposed.glance;
-  options.nodes = supposed.nodes;
-  options.by_rows = supposed.by_rows;
-  options.within = supposed.within;
-  options.bare = !problem.measured.is_log();
-  if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
-    const char* const found = !problem.measured.is_log() ? "readings"
-                              : !observed.contacts       ? "one of lengths and turns"
-                                                         : "no finger";
-    throw InputError(
-        fmt::format("`{}`: a finger tells how the part lies by u and psi, expected a log of them, found {}",
-                    name_of(*problem.pose), found));
-  }
-  if (problem.pose && std::isfinite(problem.pose->place_sd) && !has_centres) {
-    throw InputError(
-        "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
-  }
-  if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
-  Belief belief(problem.part, kind_of(problem), options, contacts);
-  const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();
-  require_times(*problem.noise, has_times, problem.measured.is_log() ? problem.measured.log->name : "`readings`");
-  const std::vector<Reading>& readings = rows_felt(problem, observed);
-  const std::size_t stride = std::max<std::size_t>(1, readings.size() / std::max<std::size_t>(1, supposed.rows));
-  for (std::size_t k = 0; k < readings.size(); k += stride) {
-    // On a corner of a finger a row leaves open how its normal is turned.
-    if (!observed.on_corners.empty() && observed.on_corners[k]) continue;
-    Sample sample;
-    sample.reading = readings[k];
-    if (has_times) sample.time = problem.measured.log->time[k];
-    sample.finger_curvature = PerFinger<double>::of(fingers);
-    for (std::size_t which = 0; which < fingers; ++which)
-      sample.finger_curvature[which] = finger_curvature(problem, which, k);
-    if (observed.contacts) add_contacts(problem, observed, k, has_centres, sample);
-    belief.add(sample);
-  }
-  return belief;
-}
-
 std::vector<Mode> modes_of(Belief& belief) {
   std::vector<Mode> modes = belief.modes();
   for (Mode& mode : modes) mode.probability = std::min(1.0, mode.probability);
@@ -196,49 +103,50 @@ std::vector<Mode> modes_of(Belief& belief) {
 namespace {
 
 /// Sums and quotients of probabilities may come out beyond 1 by rounding.
-void keep_probabilities(Answer& answer) {
-  for (std::vector<Placement>* placements : {&answer.placements, &answer.weighing->improbable}) {
-    for (Placement& placement : *placements) placement.probability = std::min(1.0, placement.probability);
-  }
-  answer.weighing->rest = std::clamp(answer.weighing->rest, 0.0, 1.0);
+void keep_probabilities(std::vector<Placement>& placements, Weighing& weighing) {
+  for (Placement& placement : placements) placement.probability = std::min(1.0, placement.probability);
+  for (Placement& placement : weighing.improbable) placement.probability = std::min(1.0, placement.probability);
+  weighing.rest = std::clamp(weighing.rest, 0.0, 1.0);
 }
 
 }  // namespace
 
-bool weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer) {
+RowsWeighed weigh(const Problem& problem, const Observation& observed, bool explains, const Answer& searched,
+                  Belief& belief) {
   const Doing doing("weighing all rows");
-  Weighing weighing;
+  RowsWeighed rows;
+  Weighing& weighing = rows.weighing;
   weighing.noise = *problem.noise;
   weighing.prior = problem.prior;
   weighing.pose = problem.pose;
   weighing.robust = problem.robust;
   weighing.samples = belief.samples();
-
   weighing.rest = belief.rest();
   weighing.fit = belief.fit();
   weighing.evidence = belief.evidence();
-  if (explains) answer.diagnoses = diagnose(problem, observed, belief);
+  if (explains) rows.diagnoses = diagnose(problem, observed, belief);
   weighing.density = belief.density();
-  const bool are_explained = !answer.diagnoses.empty();
-  if (explains && !are_explained) answer.diagnoses = diagnoses_by_centres(problem, observed);
+  if (explains && rows.diagnoses.empty()) {
+    rows.diagnoses = diagnoses_by_centres(problem, observed);
+    rows.centres_contradict = !rows.diagnoses.empty();
+  }
   const Verdict::Name verdict = belief.verdict().name;
-  Weighed weighed = weigh(answer.part, answer.readings, answer.facing, answer.placements, belief);
+  Weighed weighed = rollfix::weigh(searched.part, searched.readings, searched.facing, searched.placements, belief);
   weighing.improbable = std::move(weighed.improbable);
   add_pose_spreads(problem, belief, weighed.placements);
   if (verdict == Verdict::inconsistent) {
     for (Placement& placement : weighed.placements) weighing.improbable.push_back(std::move(placement));
     weighed.placements.clear();
   }
-  answer.placements = std::move(weighed.placements);
-  answer.dropped.improbable = weighing.improbable.size();
-  if (answer.finger_count() == 2) {  // what is listed is the posterior's: the search only says what kinds they are
-    answer.status = weighing.rest <= kMostRest ? Status::complete : Status::incomplete;
+  rows.placements = std::move(weighed.placements);
+  rows.status = searched.status;
+  if (searched.finger_count() == 2) {  // what is listed is the posterior's: the search only says what kinds they are
+    rows.status = weighing.rest <= kMostRest ? Status::complete : Status::incomplete;
   } else if (verdict == Verdict::undecided) {
-    answer.status = Status::incomplete;
+    rows.status = Status::incomplete;
   }
-  answer.weighing = std::move(weighing);
-  keep_probabilities(answer);
-  return !are_explained && !answer.diagnoses.empty();
+  keep_probabilities(rows.placements, weighing);
+  return rows;
 }
 
 void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly) {
@@ -254,7 +162,7 @@ void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly
   }
   answer.verdict.fits_badly |= fits_badly;
   const double as_said = trust(answer);
-  if (as_said == 1) return keep_probabilities(answer);
+  if (as_said == 1) return keep_probabilities(answer.placements, *answer.weighing);
   double listed = 0;
   for (Placement& placement : answer.placements) {
     placement.probability *= as_said;
@@ -263,7 +171,7 @@ void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly
     listed += placement.probability;
   }
   answer.weighing->rest = std::max(0.0, 1 - listed);
-  keep_probabilities(answer);
+  keep_probabilities(answer.placements, *answer.weighing);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::answer

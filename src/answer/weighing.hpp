@@ -1,80 +1,58 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
-#include "observation.hpp"
 #include "rollfix/solve.hpp"
+#include "steps.hpp"
 
-namespace rollfix {
+namespace rollfix::answer {
 
 // Without noise: a few rows of a log are searched with, and all of them are held against what was found.
-
-/// The noise that a log's rows seem to have, as they jitter beside a smooth course: none where they don't, or where
-/// there are too few to tell.
-std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>& fingers);
-
-/// How far the fingers' centres in the world, as a log has them, jitter beside a smooth course: the largest standard
-/// deviation of a coordinate; 0 where they don't, or where there are too few rows to tell.
-double jitter_of_centres(const Log& log);
-
-/// Half a unit of the last decimal that any of the numbers shows; 0: they show more than can be told.
-double rounding_of_column(const std::vector<double>& values);
 
 /// Of two fingers' log, a row that is off the place which stands for a continuum of pairs: the search is to be asked
 /// about it as well. Nothing where all rows fit those places.
 std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
 
-/// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last. Where none
-/// is left the rows fit badly, which is false, and why, if it `explains`. REQUIRES a log, and poses where it has them.
-bool check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer);
+/// What all rows of a log say of the placements.
+struct RowsChecked {
+  std::vector<Placement> placements;   // those that the rows, or the contacts in the world, contradict are last
+  bool fits_badly = false;             // with every place
+  std::vector<Diagnosis> diagnoses{};  // why, where that was asked
+};
+/// REQUIRES a log, and poses where it has them.
+RowsChecked check_rows(const Problem& problem, const Observation& observed, bool explains, const Answer& answer);
 
 // With noise: what all rows of a log, or the readings where there is no log, make of the placements.
-
-/// What the problem's log tells of itself; of readings: lengths and turns.
-LogKind kind_of(const Problem& problem);
-/// The curvature of finger 0 or 1 where it touches in a row; 0 where the finger is not known.
-double finger_curvature(const Problem& problem, std::size_t which, std::size_t row);
-
-/// "heading" or "pose": what was said of how the part lies.
-const char* name_of(const PosePrior& pose);
-
-/// Throws InputError: what is weighed against noise, where there is none.
-void require_noise(const Problem& problem);
-
-/// What a problem is tried with that it does not say.
-struct Supposed {
-  double scale_sd = 0;                                         // see BeliefOptions
-  std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
-  bool glance = false;                                         // see BeliefOptions
-  std::optional<std::size_t> nodes{};                          // likewise
-  bool by_rows = false;                                        // likewise
-  std::vector<Interval> within{};                              // likewise
-  std::optional<std::size_t> scale_of{};                       // likewise
-};
-/// Nothing without noise.
-std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});
 
 /// What the belief says now: its modes, whose probabilities, sums over many cells, are not carried beyond 1 by
 /// rounding.
 std::vector<Mode> modes_of(Belief& belief);
 
-/// Puts what the samples leave in place of what the search found. What nothing explains is not listed. Unless it
-/// `explains`, nothing is said of what may be wrong. True: the belief does not know that the rows fit badly, but the
-/// fingers' centres say so.
-bool weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer);
+/// What all rows together say.
+struct RowsWeighed {
+  std::vector<Placement> placements;  // what nothing explains is not among them
+  Weighing weighing;
+  Status status = Status::complete;
+  std::vector<Diagnosis> diagnoses{};
+  bool centres_contradict = false;  // the belief does not know that the rows fit badly, but the fingers' centres say so
+};
+/// What the samples leave in place of what the search found. Unless it `explains`, nothing is said of what may be
+/// wrong.
+RowsWeighed weigh(const Problem& problem, const Observation& observed, bool explains, const Answer& searched,
+                  Belief& belief);
 
 /// The verdict, and how probable places are: after the fingers dropped some, or rows on their corners did, as if there
 /// were no more than the others; in doubt where something else explains the rows as well. `fits_badly`: what was found
 /// of the rows besides.
-void conclude(Belief& belief, Answer& answer, bool is_reweighed = false, bool fits_badly = false);
+void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly);
 
-/// Takes the placements out of a list in which two fingers of any shape are in one another in some row of their log,
-/// from wherever in its extent they started. With an outline it takes u: of readings nothing goes. `length_error`: how
-/// far a length, or a contact on a finger, may be off.
-std::vector<Impossible> drop_overlapping(const Problem& problem, const Observation& observed, double length_error,
-                                         std::vector<Placement>& placements);
+// What fingers can't do.
 
-}  // namespace rollfix
+/// Takes the placements out of the answer that the fingers can't reach, or in which two would be in one another: where
+/// they can be is known if all of them are disks or jaws; two of any shape are followed along their log, from wherever
+/// in its extent a placement starts. With an outline that takes u: of readings nothing goes.
+void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer);
+
+}  // namespace rollfix::answer

@@ -9,15 +9,15 @@
 #include <unordered_map>
 #include <utility>
 
-#include "answer/crew.hpp"
 #include "bounds/profile.hpp"
 #include "database.hpp"
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/inspect.hpp"
+#include "work/crew.hpp"
 
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // Sources that may be ready before one that takes long is.
@@ -378,29 +378,33 @@ class CatalogWriter {
 
 }  // namespace
 
+}  // namespace rollfix::catalog
+
+namespace rollfix {
+
 BuildReport build_catalog(const std::string& path, const std::vector<CatalogSource>& sources,
                           const BuildOptions& options) {
-  const NoEmptyFile none(path);
-  CatalogWriter writer(path, options.load.points.unit);
+  const catalog::NoEmptyFile none(path);
+  catalog::CatalogWriter writer(path, options.load.points.unit);
   const std::string unit = writer.unit();  // which may be set while parts are read
   BuildReport report;
   const std::unordered_map<std::string, std::string> there = writer.stamps();
   std::vector<std::size_t> wanted;
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const auto found = there.find(sources[k].argument);
-    if (found != there.end() && found->second == stamp_of(sources[k], options)) {
+    if (found != there.end() && found->second == catalog::stamp_of(sources[k], options)) {
       ++report.unchanged;
     } else {
       wanted.push_back(k);
     }
   }
 
-  Waiting waiting;
+  catalog::Waiting waiting;
   BuildProgress progress{sources.size(), report.unchanged, writer.parts()};
   const auto write_ready = [&] {
-    std::vector<std::pair<std::size_t, ReadySource>> ready = waiting.take();
+    std::vector<std::pair<std::size_t, catalog::ReadySource>> ready = waiting.take();
     if (!ready.empty()) {
-      Transaction all(writer.database());
+      catalog::Transaction all(writer.database());
       for (auto& [k, source] : ready) {
         writer.write(sources[wanted[k]], options, source, report);
       }
@@ -424,7 +428,8 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
   crew.run(options.jobs, go_on, [&](std::size_t lo, std::size_t hi) {
     for (std::size_t k = lo; k < hi; ++k) {
       const CatalogSource& source = sources[wanted[k]];
-      if (!waiting.put(k, in_catalogs_unit(read_source(source, options), source, options, unit))) return;
+      if (!waiting.put(k, catalog::in_catalogs_unit(catalog::read_source(source, options), source, options, unit)))
+        return;
     }
   });
   if (!report.stopped) {
@@ -436,7 +441,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
 
 std::size_t remove_from_catalog(const std::string& path, const std::vector<std::string>& names) {
   if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: there is no such catalog", path));
-  return CatalogWriter(path, "").remove(names);
+  return catalog::CatalogWriter(path, "").remove(names);
 }
 
 }  // namespace rollfix

@@ -23,6 +23,20 @@
 namespace rollfix {
 namespace {
 
+using catalog::CellPlaces;
+using catalog::Database;
+using catalog::kCells;
+using catalog::kFineCells;
+using catalog::PartRow;
+using catalog::places_of;
+using catalog::Profile;
+using catalog::profile_from;
+using catalog::Statement;
+using catalog::sum_of;
+using catalog::sum_of_fine;
+using catalog::sum_of_unit;
+using catalog::Transaction;
+
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> kEndings = {".csv", ".dat", ".txt", ".dxf", ".svg", ".json"};

@@ -21,7 +21,7 @@
 // Follows docs/identify.md; the evidence is docs/belief.md, "What the verdict says".
 // Idea: of all that fit the verdict counts those that can't be neglected; parts that no roll can tell apart are one
 // answer. The next roll is advised over all their places together, each weighed by its part's probability.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // Places that are compared.
@@ -206,7 +206,7 @@ namespace {
 // More places are not compared with each other: the likeliest, which hold nearly all of the probability, are.
 constexpr std::size_t kMostPlaces = 200;
 
-std::vector<NextRollOfParts::Place> places_of(const Identified& found) {
+std::vector<NextRollOfParts::Place> weighed_places(const Identified& found) {
   std::vector<NextRollOfParts::Place> places;
   std::size_t labels = 0;
   const double all_alike = 1 / static_cast<double>(found.parts.size());
@@ -234,6 +234,10 @@ std::string why_no_roll(const Identified& found) {
 
 }  // namespace
 
+}  // namespace rollfix::catalog
+
+namespace rollfix {
+
 NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>& travel) {
   NextRollOfParts next;
   if (found.parts.empty()) {
@@ -245,7 +249,7 @@ NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>
       if (placement.clockwise) throw InputError("advise: expected one direction of the roll, found either");
     }
   }
-  next.places = places_of(found);
+  next.places = catalog::weighed_places(found);
   if (found.verdict.rfind("unique part, unique place", 0) == 0) {
     next.why = "there is only one part and one place left";
     return next;
@@ -260,7 +264,7 @@ NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>
   options.disks = disks_for_advice(found.parts.front().answer, false);
   next.advice = advise(hypotheses, options);
   if (!next.advice->helps) {
-    next.why = why_no_roll(found);
+    next.why = catalog::why_no_roll(found);
     return next;
   }
   for (NextRollOfParts::Place& place : next.places) {

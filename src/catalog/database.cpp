@@ -12,7 +12,7 @@
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // Another program that writes is waited for so long.
@@ -276,4 +276,4 @@ void set_whole_sum(const Database& database, std::uint64_t sum) {
   set_fact(database, "checksum", fmt::format("{:016x}", sum));
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

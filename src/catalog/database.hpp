@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "answer/crew.hpp"
+#include "work/crew.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace rollfix {
+namespace rollfix::catalog {
 
 /// One SQL statement, to be run once or again and again. Columns and parameters are counted from 0.
 class Statement {
@@ -131,4 +131,4 @@ void set_fact(const Database& database, const std::string& name, const std::stri
 std::uint64_t whole_sum(const Database& database);
 void set_whole_sum(const Database& database, std::uint64_t sum);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

@@ -13,10 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "answer/crew.hpp"
-#include "answer/either_way.hpp"
-#include "answer/observation.hpp"
-#include "answer/weighing.hpp"
+#include "answer/steps.hpp"
 #include "belief/posterior.hpp"
 #include "catalog/bounds/bounds.hpp"
 #include "rollfix/error.hpp"
@@ -24,6 +21,7 @@
 #include "rollfix/solve.hpp"
 #include "text/text.hpp"
 #include "weights.hpp"
+#include "work/crew.hpp"
 
 // Notation, as in docs/identify.md:
 //   weight          what a part is worth: peak and volume of its evidence, `widened` and `excess` of its noise:
@@ -34,7 +32,7 @@
 //   left            parts, with the cells of 256 in which bounds let the roll start: PartLeft
 // Follows docs/identify.md, "How parts are ruled out".
 // Idea: bounds rule out most parts, with noise a glance most others, and those that are left are solved.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // Rows are joined to so many at most, so that a part takes a tenth of the time.
@@ -106,8 +104,8 @@ Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, const
 /// Of each part; adds what they weigh to the weights.
 std::vector<Glance> glances_at(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
                                std::vector<PartWeight>& weights, const IdentifyOptions& options) {
-  std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
-  if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
+  std::vector<Problem> ways;
+  for (const View& view : views_of(like)) ways.push_back(view.of(like));
   std::vector<Glance> glances(parts.size());
   // Those before tell what the others are held against: the same ones with however many threads.
   for (std::size_t begin = 0, end = 1; begin < parts.size(); begin = end, end = 2 * end) {
@@ -278,6 +276,10 @@ Likeness likeness_of(const Problem& like) {
   return likeness;
 }
 
+}  // namespace rollfix::catalog
+
+namespace rollfix {
+
 Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options) {
   if (like.prior)
     throw InputError("`prior`: is about a place on one part; which part it is has `count` in the catalog");
@@ -287,25 +289,25 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
     found.verdict = "none";
     return found;
   }
-  if (like.noise) require_weighable(catalog, *like.noise);
-  const std::vector<std::size_t> parts = parts_of(catalog, options);
+  if (like.noise) catalog::require_weighable(catalog, *like.noise);
+  const std::vector<std::size_t> parts = catalog::parts_of(catalog, options);
   found.asked = parts.size();
   found.noise = like.noise;
   found.mirrored = like.mirrored;
   found.samples = like.measured.is_log() ? like.measured.log->rows() : like.measured.readings.size();
-  Survey survey(catalog, like, options);
+  catalog::Survey survey(catalog, like, options);
   survey.look(parts, 1, found);
   if (found.counted) {
     found.verdict = counted(found.left.size(), "part", "parts");
     return found;
   }
-  if (like.noise && !fits_well(found.weights)) survey.look(parts, belief::kMostExcess, found);
+  if (like.noise && !catalog::fits_well(found.weights)) survey.look(parts, belief::kMostExcess, found);
   std::sort(found.refused.begin(), found.refused.end(),
             [](const PartRefused& a, const PartRefused& b) { return a.part < b.part; });
   if (!found.refused.empty() && found.refused.size() == found.searched + found.searched_widely)
     throw InputError(found.refused.front().why);
-  const Conclusion conclusion =
-      conclude(catalog, found.weights, found.searched + found.searched_widely, likeness_of(like));
+  const catalog::Conclusion conclusion =
+      catalog::conclude(catalog, found.weights, found.searched + found.searched_widely, catalog::likeness_of(like));
   found.verdict = conclusion.verdict;
   found.status = conclusion.status;
   found.rest = conclusion.rest;

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "answer/crew.hpp"
 #include "belief/posterior.hpp"
 #include "bounds/bounds.hpp"
 #include "catalog/bounds/bounds.hpp"
@@ -17,6 +16,7 @@
 #include "touch/problem.hpp"
 #include "touch/roll_contacts.hpp"
 #include "weights.hpp"
+#include "work/crew.hpp"
 
 // Notation, as in docs/identify.md, "Touches":
 //   left            parts that no touch and no roll by itself rules out: `bounds/`
@@ -24,7 +24,7 @@
 //   likeness        how far places and tangents of two parts may be apart that no touch tells from each other: Likeness
 //   excess          so many times the noise of rolls is let pass, in turn
 // Follows docs/identify.md, "Touches" and "How touches rule out a part".
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 /// What one part says; no answer where it refuses.
@@ -83,7 +83,7 @@ Likeness likeness_of(const TouchProblem& like, const std::vector<TouchTolerance>
     }
   }
   for (const Log& roll : like.rolls) {
-    const Likeness of_roll = likeness_of(touch::alone(like, roll));
+    const Likeness of_roll = catalog::likeness_of(touch::alone(like, roll));
     likeness.length = std::min(likeness.length, of_roll.length);
     likeness.roll = std::max(likeness.roll, of_roll.roll);
     if (like.touches.empty()) likeness.turn = of_roll.turn;
@@ -209,16 +209,20 @@ void take(const Catalog& catalog, const TouchProblem& like, std::vector<TouchOut
 
 }  // namespace
 
+}  // namespace rollfix::catalog
+
+namespace rollfix {
+
 IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, const IdentifyOptions& options) {
   TouchProblem like = asked;
   like.diagnose = false;
   if (!like.noise && !like.tolerance && have_own_noise(like.touches)) like.noise.emplace();
-  IdentifiedByTouches found = touches_of(like);
+  IdentifiedByTouches found = catalog::touches_of(like);
   if (catalog.size() == 0) {
     found.verdict = "none";
     return found;
   }
-  require_valid(catalog, like);
+  catalog::require_valid(catalog, like);
   for (const touch::Measured& touch : touch::measured(like))
     found.tolerance.push_back({touch.place_most, touch.angle_most});
   const Doing doing("searching the catalog's parts");
@@ -228,17 +232,17 @@ IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, 
     std::iota(parts.begin(), parts.end(), std::size_t{0});
   }
   found.asked = parts.size();
-  found.left = parts_left(catalog, like, 1, options, parts);
+  found.left = catalog::parts_left(catalog, like, 1, options, parts);
   found.searched = found.left.size();
   if (found.left.size() > options.most_searched) {
     found.counted = true;
     found.verdict = counted(found.left.size(), "part", "parts");
     return found;
   }
-  std::vector<TouchOutcome> outcomes = touch_outcomes_of(catalog, like, options, found.left);
-  if (like.noise && !like.rolls.empty() && !any_fits_well(outcomes))
-    look_widely(catalog, like, options, parts, outcomes, found);
-  take(catalog, like, std::move(outcomes), found);
+  std::vector<catalog::TouchOutcome> outcomes = catalog::touch_outcomes_of(catalog, like, options, found.left);
+  if (like.noise && !like.rolls.empty() && !catalog::any_fits_well(outcomes))
+    catalog::look_widely(catalog, like, options, parts, outcomes, found);
+  catalog::take(catalog, like, std::move(outcomes), found);
   return found;
 }
 

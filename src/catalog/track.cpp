@@ -13,7 +13,7 @@
 #include "watch/meaning.hpp"
 #include "watch/rolls.hpp"
 
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // While so many parts remain they are only counted: to weigh them all takes longer than a roll is.
@@ -89,6 +89,10 @@ std::unique_ptr<Meaning> meaning_on_catalog(const std::shared_ptr<const Catalog>
   return std::make_unique<OnCatalog>(catalog, followed, kind);
 }
 
+}  // namespace rollfix::catalog
+
+namespace rollfix {
+
 Tracker track(const std::shared_ptr<const Catalog>& catalog, std::vector<Finger> fingers, const Noise& noise,
               TrackOptions options) {
   const auto refuse = [](bool given, const char* name) {
@@ -101,7 +105,7 @@ Tracker track(const std::shared_ptr<const Catalog>& catalog, std::vector<Finger>
   options.log.any_part = true;
   const Followed followed = as_mirrored({any_part_of(*catalog), std::move(fingers), noise, std::move(options)});
   return Tracker(std::make_unique<Tracker::State>(
-      followed, [=](LogKind kind) { return meaning_on_catalog(catalog, followed, kind); }));
+      followed, [=](LogKind kind) { return catalog::meaning_on_catalog(catalog, followed, kind); }));
 }
 
 }  // namespace rollfix

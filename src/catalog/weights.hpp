@@ -8,7 +8,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/solve.hpp"
 
-namespace rollfix {
+namespace rollfix::catalog {
 
 // How parts are weighed against each other.
 
@@ -68,4 +68,4 @@ inline constexpr double kSameScale = 1e-9;
 bool are_congruent(const Part& one, const std::vector<double>& from, const Part& other,
                    const std::vector<double>& other_from, const Likeness& likeness);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

@@ -18,7 +18,7 @@
 // Follows docs/certificates.md, "What is in it" (the table of cells) and "How it is checked".
 // Idea: nothing is proved here. Rows are put beside every placement, where f is off by some tolerances (`kBeside`), and
 // between placements where f comes nearest to the tolerance. rollfix-verify proves the claims by formulas of its own.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 // A row beside a placement stands where f is off by so many tolerances: far enough to be told from one.
@@ -302,6 +302,10 @@ class Maker {
 
 }  // namespace
 
+}  // namespace rollfix::certifying
+
+namespace rollfix {
+
 const char* name_of(CellKind kind) {
   switch (kind) {
     case CellKind::apart:
@@ -336,12 +340,12 @@ Certificate certify(const Part& part, const std::vector<Reading>& readings, cons
   }
   const Search search = locate(part, readings, options);
   Certificate certificate;
-  static_cast<CertifiedOutline&>(certificate) = certified_outline(part);
+  static_cast<CertifiedOutline&>(certificate) = certifying::certified_outline(part);
   certificate.readings = readings;
   certificate.tolerance = std::max(options.tolerance, kLeastTolerance);
-  certificate.rows = Maker(part, readings, search, certificate.tolerance).rows();
+  certificate.rows = certifying::Maker(part, readings, search, certificate.tolerance).rows();
   for (const Placement& placement : search.placements) {
-    certificate.placements.push_back({placement, place_of(part, placement.start[0])});
+    certificate.placements.push_back({placement, certifying::place_of(part, placement.start[0])});
   }
   return certificate;
 }

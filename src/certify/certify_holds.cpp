@@ -23,7 +23,7 @@
 // Idea: the certificate is the question, and the sets of first contacts with how the part lies there; the verifier
 // searches by itself. With noise it is the same question within 4.5 standard deviations: so what the answer leaves out
 // as improbable is found as well.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 using hold::HeldContact;
@@ -349,6 +349,10 @@ void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, cons
 
 }  // namespace
 
+}  // namespace rollfix::certifying
+
+namespace rollfix {
+
 bool HoldCertificate::is_complete() const {
   return unresolved.empty() && std::none_of(sets.begin(), sets.end(), [](const CertifiedHoldSet& set) {
            return set.listed && set.first.empty();
@@ -366,25 +370,27 @@ HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answ
   const hold::WheelPaths wheels = hold::paths_of(problem);
   std::vector<Log> logs = hold::logs_of(problem);
   const HoldProblem seen = problem.mirrored ? hold::in_mirror(problem, logs) : problem;
-  const HeldRows rows = within_slack(hold::held_rows(seen, logs));
+  const hold::HeldRows rows = certifying::within_slack(hold::held_rows(seen, logs));
   hold::HeldQuestion question(seen, rows, hold::rows_to_search(problem, logs.front()), wheels);
   HoldCertificate certificate;
-  static_cast<CertifiedOutline&>(certificate) = certified_outline(problem.part);
+  static_cast<CertifiedOutline&>(certificate) = certifying::certified_outline(problem.part);
   certificate.mirrored = problem.mirrored;
   for (std::size_t k = 0; k < rows.fingers(); ++k) {
-    certificate.fingers.push_back(certified_finger(hold::finger_of_log(seen, k), rows, k, question.reach(k)));
+    certificate.fingers.push_back(
+        certifying::certified_finger(hold::finger_of_log(seen, k), rows, k, question.reach(k)));
   }
-  for (const HeldWheel& wheel : rows.wheels) certificate.wheels.push_back(certified_wheel(problem.part, wheel));
+  for (const hold::HeldWheel& wheel : rows.wheels)
+    certificate.wheels.push_back(certifying::certified_wheel(problem.part, wheel));
   std::vector<double> times;
-  for (const HeldRow& row : question.searched().rows) {
-    certificate.instants.push_back(certified_instant(row, rows));
+  for (const hold::HeldRow& row : question.searched().rows) {
+    certificate.instants.push_back(certifying::certified_instant(row, rows));
     times.push_back(row.time);
   }
   if (answer.instants != times || answer.noise.has_value() != problem.noise.has_value()) {
     throw InputError("a certificate of fingers on a free part: expected the answer to this problem, found another one");
   }
-  add_sets(question, wheels, answer, certificate);
-  if (certificate.mirrored) take_out_of_mirror(certificate);
+  certifying::add_sets(question, wheels, answer, certificate);
+  if (certificate.mirrored) certifying::take_out_of_mirror(certificate);
   return certificate;
 }
 

@@ -17,7 +17,7 @@
 // Follows docs/certificates.md, "Two fingers".
 // Idea: nothing is proved here. A placement gets a box as large as has one root for certain, or else as small as holds
 // it, and a family its line; what is around these is divided into cells by pair_cover.cpp.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 // The cells of a closed outline begin at these shares of the perimeter, where no symmetry has a joint.
@@ -326,6 +326,10 @@ class PairMaker {
 
 }  // namespace
 
+}  // namespace rollfix::certifying
+
+namespace rollfix {
+
 const char* name_of(PairProof proof) {
   switch (proof) {
     case PairProof::one:
@@ -351,11 +355,11 @@ PairCertificate certify_pair(const Part& part, const std::vector<Reading>& readi
     throw InputError("certificates of two fingers are of two fingers' readings");
   }
   PairCertificate certificate;
-  static_cast<CertifiedOutline&>(certificate) = certified_outline(part);
+  static_cast<CertifiedOutline&>(certificate) = certifying::certified_outline(part);
   certificate.readings = readings;
   certificate.facing = options.facing;
   certificate.tolerance = std::max(options.tolerance, kLeastTolerance);
-  PairMaker(part, readings, options).fill(certificate);
+  certifying::PairMaker(part, readings, options).fill(certificate);
   return certificate;
 }
 

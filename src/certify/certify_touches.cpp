@@ -18,7 +18,7 @@
 // Follows docs/certificates.md, "Touches".
 // Idea: the certificate is the question, and boxes that hold all sets of poses; the verifier searches by itself. What
 // an answer leaves out is within the tolerances as well, so that it has to be among the boxes.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 /// The question of an answer, without what only weighs poses.
@@ -144,10 +144,14 @@ std::vector<Interval> widened(std::vector<Interval> arcs, double by, const Bound
 
 }  // namespace
 
+}  // namespace rollfix::certifying
+
+namespace rollfix {
+
 TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::size_t> budget) {
-  require_certifiable(answer);
+  certifying::require_certifiable(answer);
   TouchCertificate certificate;
-  static_cast<CertifiedOutline&>(certificate) = certified_outline(answer.part);
+  static_cast<CertifiedOutline&>(certificate) = certifying::certified_outline(answer.part);
   certificate.mirrored = answer.mirrored;
   certificate.radius = answer.radius;
   for (const RollFacts& roll : answer.rolls) certificate.rolls.push_back(roll.searched);
@@ -157,22 +161,22 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
     Reach reach = reach_of_disk(answer.part, answer.radius);
     if (!reach.is_whole()) certificate.reach = std::move(reach);
   }
-  const Margin margin = margin_of(answer);
+  const certifying::Margin margin = certifying::margin_of(answer);
   const auto add = [&](const TouchPose& pose, bool listed) {
-    certificate.poses.push_back(certified(answer.part, pose, margin, listed));
+    certificate.poses.push_back(certifying::certified(answer.part, pose, margin, listed));
   };
   for (const TouchPose& pose : answer.poses) add(pose, true);
   std::vector<Interval> unresolved = answer.unresolved;
   certificate.unresolved_touch = answer.unresolved_touch;
   if (answer.noise || !answer.clear.empty() || !answer.rolls.empty()) {
     const TouchAnswer beyond =
-        touch::poses_beyond(asked(answer, budget), certificate.rolls, answer.tolerance, answer.poses);
+        touch::poses_beyond(certifying::asked(answer, budget), certificate.rolls, answer.tolerance, answer.poses);
     for (const TouchPose& pose : beyond.poses) add(pose, false);
     unresolved = beyond.unresolved;  // what could not be weighed is among its sets
     certificate.unresolved_touch = beyond.unresolved_touch;
   }
   const double by = certificate.tolerance[certificate.unresolved_touch].length;
-  certificate.unresolved = widened(std::move(unresolved), by, answer.part.boundary());
+  certificate.unresolved = certifying::widened(std::move(unresolved), by, answer.part.boundary());
   return certificate;
 }
 

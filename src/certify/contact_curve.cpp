@@ -17,7 +17,7 @@
 // balls.
 // Idea: cut the first contacts where any contact comes to a corner; between cuts one chord and one bound serve each
 // sum.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 // A curvature that jumps by this many radians over the perimeter ends a stretch that is nearly an arc.
@@ -193,4 +193,4 @@ const std::vector<ContactStretch>& ContactCurve::over(double lo, double hi, Cuts
   return known_[{lo, hi, cuts}] = std::move(result);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

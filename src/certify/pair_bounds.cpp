@@ -20,7 +20,7 @@
 // Nullstellen mit Fehlerschranken", 1969).
 // Idea: the bounds of rollfix-verify in the search's own doubles, with some room (`kFill`, `kClearly`, `kBesideLine`),
 // so that what is claimed here can be proved there.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 // Half of a box is more than what its image may fill: the verifier's bounds on slopes are wider than those by spirals.
@@ -370,4 +370,4 @@ bool PairBounds::has_one_root(const ContactStretch& a, const ContactStretch& b, 
   return false;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

@@ -14,7 +14,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"
 
-namespace rollfix {
+namespace rollfix::certifying {
 
 /// The tangent's angles at all contacts of one finger while its first contact moves along a stretch, or while it
 /// pivots there.
@@ -200,4 +200,4 @@ class PairCover {
   std::vector<Cell> cells_;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

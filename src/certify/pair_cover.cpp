@@ -17,7 +17,7 @@
 // Follows docs/certificates.md, "Two fingers": the table of cells.
 // Idea: breadth first, the side whose equations change more is halved, until each part is excluded, is in a placement's
 // box, or is too small; what is left goes to a placement without a box that is near, or claims nothing.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 // Cells, before what is near a placement without a box is left to it, and before all is left.
@@ -231,4 +231,4 @@ void PairCover::write(std::size_t cell, std::string& text) const {
   write(cells_[cell].first + 1, text);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

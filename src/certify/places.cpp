@@ -21,7 +21,7 @@
 //   joint           where two curves meet: rows keep `kClear` P away from it, `least_step`
 //   rest            an end of a curve at which its velocity is 0
 // Follows docs/certificates.md, "What is in it".
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 using Records = std::vector<CurveRecord>;
@@ -202,4 +202,4 @@ CertifiedOutline certified_outline(const Part& part) {
   return result;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

@@ -4,7 +4,7 @@
 
 #include "rollfix/certify.hpp"
 
-namespace rollfix {
+namespace rollfix::certifying {
 
 /// The least step between places: what a roll's end is known to, many times over.
 double least_step(const Part& part);
@@ -25,4 +25,4 @@ Interval clear_starts(const Part& part, const std::vector<double>& lengths);
 /// What every certificate says of the outline. Throws InputError: a curve whose formula certificates don't have.
 CertifiedOutline certified_outline(const Part& part);
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

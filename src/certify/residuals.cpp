@@ -25,7 +25,7 @@
 // Idea: between cuts both curvatures are monotone, so that four numbers tell the sign of f', after some halvings. Of
 // all readings the one that is furthest off at the nearer end is tried first. At a convex corner where the roll starts
 // all readings share one pivot, which each of them alone may fit, and two together can exclude.
-namespace rollfix {
+namespace rollfix::certifying {
 namespace {
 
 constexpr int kMostBisections = 60;
@@ -317,4 +317,4 @@ std::vector<Interval> Residuals::flat(double lo, double hi) const {
   return all;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

@@ -9,7 +9,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"
 
-namespace rollfix {
+namespace rollfix::certifying {
 
 /// f of one reading along the boundary, s unwrapped, or the difference of two readings' f, on which the tangent at s
 /// has no bearing: what a certificate is drawn up by.
@@ -121,4 +121,4 @@ class Residuals {
   std::vector<double> lengths_;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::certifying

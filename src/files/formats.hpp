@@ -7,7 +7,7 @@
 #include "rollfix/outline.hpp"
 
 // From a file's bytes to what it draws. `name` is what messages call the file.
-namespace rollfix {
+namespace rollfix::files {
 
 struct DxfOptions {
   std::string layer;  // take only the entities on this layer; empty: on all that are shown
@@ -30,4 +30,4 @@ Drawing parse_svg(std::string_view text, const std::string& name);
 /// the field: not JSON, a field that is missing, unknown or there twice, a value that is not allowed.
 std::variant<Outline, Drawing> parse_json_outline(std::string_view text, const std::string& name);
 
-}  // namespace rollfix
+}  // namespace rollfix::files

@@ -256,7 +256,7 @@ LoadedPart of_drawing(Drawing drawing, const LoadOptions& options) {
 }
 
 LoadedPart of_json(const std::string& text, const std::string& name, const LoadOptions& options) {
-  std::variant<Outline, Drawing> content = parse_json_outline(text, name);
+  std::variant<Outline, Drawing> content = files::parse_json_outline(text, name);
   if (Drawing* drawing = std::get_if<Drawing>(&content)) {
     require_options_for(FileKind::json, name, options);
     return of_drawing(std::move(*drawing), options);
@@ -281,11 +281,11 @@ LoadedPart load_points(std::string text, const std::string& name, const LoadOpti
     } catch (const InputError& error) {
       const std::string message = error.what();
       const bool crosses = message.find("`allow_crossing`") != std::string::npos;
-      throw InputError(message + (crosses ? noisy_crossing_hint(points, known) : ""));
+      throw InputError(message + (crosses ? files::noisy_crossing_hint(points, known) : ""));
     }
   }();
   for (const std::string& note :
-       {sparse_corners_note(points, known, loaded.part), noisy_points_note(points, known, loaded.part)}) {
+       {files::sparse_corners_note(points, known, loaded.part), files::noisy_points_note(points, known, loaded.part)}) {
     if (!note.empty()) notes.push_back(note);
   }
   loaded.notes = std::move(notes);
@@ -316,7 +316,8 @@ LoadedPart of_file(FileKind kind, std::string text, const std::string& name, con
   switch (kind) {
     case FileKind::dxf:
     case FileKind::svg: {
-      Drawing drawing = kind == FileKind::dxf ? parse_dxf(text, name, {options.layer}) : parse_svg(text, name);
+      Drawing drawing =
+          kind == FileKind::dxf ? files::parse_dxf(text, name, {options.layer}) : files::parse_svg(text, name);
       std::string().swap(text);  // what follows takes memory
       return of_drawing(std::move(drawing), options);
     }

@@ -20,7 +20,7 @@
 //   inflections     of the curve through the points: part.inflections()
 //   turn            of the chords at a point: ChordTurns
 // Follows docs/files.md, "Points and scans".
-namespace rollfix {
+namespace rollfix::files {
 namespace {
 
 /// A curve through white noise has about 0.7 inflections a point; a shape that is sampled to be seen, with four points
@@ -188,4 +188,4 @@ std::string sparse_corners_note(const std::vector<Vec2>& points, const OutlineOp
       places.size() > kMostNamed ? ", ..." : "", whole_degrees_above(most));
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::files

@@ -6,7 +6,7 @@
 #include "rollfix/outline.hpp"
 #include "rollfix/part.hpp"
 
-namespace rollfix {
+namespace rollfix::files {
 
 /// How far points of a closed or open outline scatter about a smooth curve, by their fourth differences; 0 where there
 /// are too few of them.
@@ -25,4 +25,4 @@ std::string noisy_crossing_hint(const std::vector<Vec2>& points, const OutlineOp
 /// corner whose neighbours go straight on, or a polygon's, whose neighbours are corners as well.
 std::string sparse_corners_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part);
 
-}  // namespace rollfix
+}  // namespace rollfix::files

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "answer/weighing.hpp"
+#include "log/jitter.hpp"
 #include "belief/nodes.hpp"
 #include "belief/posterior.hpp"
 #include "problem.hpp"

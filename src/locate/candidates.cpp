@@ -20,7 +20,7 @@
 // Idea: for a block in which the roll starts and one of the same level in which it ends, f is within the sum of both
 // strips of a difference of two chords. A pair that can't come within the tolerance of 0 goes; of others the halves are
 // looked at.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // Down to pairs of spirals: below, looking at each costs less than to exclude some.
@@ -163,4 +163,4 @@ Candidates find_candidates(const ContactEquations& question, const Interval& ran
   return found;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

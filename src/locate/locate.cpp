@@ -17,7 +17,7 @@
 //   parity          on a smooth closed part f is continuous and periodic, so that it crosses 0 evenly often; likewise
 //                   two closed plane curves meet evenly often: an odd number of crossings is a search gone wrong
 // Follows docs/search.md, "Once per reading" and "Two fingers".
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 void require_finite(const Reading& reading) {
@@ -159,12 +159,16 @@ Search search(const Part& part, std::span<const Reading> readings, const LocateO
 
 }  // namespace
 
+}  // namespace rollfix::locating
+
+namespace rollfix {
+
 Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
-  return search(part, readings, options);
+  return locating::search(part, readings, options);
 }
 
 Search locate(const Part& part, const Reading& reading, const LocateOptions& options) {
-  return search(part, {&reading, 1}, options);
+  return locating::search(part, {&reading, 1}, options);
 }
 
 }  // namespace rollfix

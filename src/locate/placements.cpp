@@ -23,7 +23,7 @@
 // Follows docs/search.md, "ACCURACY" and "MULTIPLE SOLUTIONS".
 // Idea: a simple root moves as the implicit function theorem says, and is as exact as f's rounding, kRootTurn, over its
 // least slope. A contact that stands at a corner has no slope: it holds its finger, and tells where the other is.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -179,74 +179,6 @@ void describe_free(const ContactEquations& question, const PerFinger<double>& at
 
 }  // namespace
 
-const char* name_of(Status status) { return status == Status::complete ? "complete" : "incomplete"; }
-
-const char* name_of(Kind kind) {
-  switch (kind) {
-    case Kind::crossing:
-      return "crossing";
-    case Kind::touching:
-      return "touching";
-    case Kind::stretch:
-      return "stretch";
-    case Kind::corner:
-      break;
-  }
-  return "corner";
-}
-
-std::string Verdict::text() const {
-  const bool is_said = fits_badly && name != inconsistent;  // where nothing fits, nothing fits badly
-  return is_said ? places_text() + ", but the rows fit badly" : places_text();
-}
-
-std::string Verdict::places_text() const {
-  switch (name) {
-    case unique:
-      return "unique";
-    case unobservable:
-      return "unobservable";
-    case inconsistent:
-      return "inconsistent";
-    case undecided:
-      return "undecided";
-    case ambiguous:
-      break;
-  }
-  const char* noun = stretches == 1 ? "stretch" : "stretches";
-  if (stretches == 0) return fmt::format("ambiguous ({})", places);
-  if (places == 1) return "ambiguous (1 stretch)";
-  return fmt::format("ambiguous ({}, of them {} {})", places, stretches, noun);
-}
-
-bool Placement::contains(const Boundary& boundary, const PerFinger<double>& s) const {
-  const double slack = kLengthAccuracy * boundary.perimeter;
-  for (std::size_t finger = 0; finger < s.size(); ++finger) {
-    const Interval& arc = std::isnan(probability) ? extent[finger] : interval[finger];
-    if (!boundary.is_full(arc) && !boundary.contains(arc, s[finger], slack)) return false;
-  }
-  return true;
-}
-
-Verdict verdict_of(Status status, const std::vector<Placement>& placements) {
-  if (status == Status::incomplete) return {Verdict::undecided};
-  std::size_t count = 0;
-  std::size_t stretches = 0;
-  for (const Placement& placement : placements) {
-    if (placement.is_contradicted) continue;
-    for (const bool whole_loop : placement.whole_loop) {
-      if (whole_loop) return {Verdict::unobservable};
-    }
-    ++count;
-    stretches += placement.kind == Kind::stretch ? 1 : 0;
-  }
-  if (count == 0) return {Verdict::inconsistent};
-  if (count == 1 && stretches == 0) return {Verdict::unique, 1};
-  // Several placements of one finger are counted alike, whatever their kinds.
-  if (count > 1 && placements.front().start.size() == 1) stretches = 0;
-  return {Verdict::ambiguous, count, stretches};
-}
-
 SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFinger<double>& at) {
   SlopeSample sample{-reading.turn, at, at};
   for (std::size_t finger = 0; finger < at.size(); ++finger) {
@@ -356,6 +288,78 @@ void PlacementMaker::describe_corner(const FoundSet& found, Placement& placement
       describe_free(question_, found.start, contacts, finger, placement.sensitivity);
     }
   }
+}
+
+}  // namespace rollfix::locating
+
+namespace rollfix {
+
+const char* name_of(Status status) { return status == Status::complete ? "complete" : "incomplete"; }
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::crossing:
+      return "crossing";
+    case Kind::touching:
+      return "touching";
+    case Kind::stretch:
+      return "stretch";
+    case Kind::corner:
+      break;
+  }
+  return "corner";
+}
+
+std::string Verdict::text() const {
+  const bool is_said = fits_badly && name != inconsistent;  // where nothing fits, nothing fits badly
+  return is_said ? places_text() + ", but the rows fit badly" : places_text();
+}
+
+std::string Verdict::places_text() const {
+  switch (name) {
+    case unique:
+      return "unique";
+    case unobservable:
+      return "unobservable";
+    case inconsistent:
+      return "inconsistent";
+    case undecided:
+      return "undecided";
+    case ambiguous:
+      break;
+  }
+  const char* noun = stretches == 1 ? "stretch" : "stretches";
+  if (stretches == 0) return fmt::format("ambiguous ({})", places);
+  if (places == 1) return "ambiguous (1 stretch)";
+  return fmt::format("ambiguous ({}, of them {} {})", places, stretches, noun);
+}
+
+bool Placement::contains(const Boundary& boundary, const PerFinger<double>& s) const {
+  const double slack = kLengthAccuracy * boundary.perimeter;
+  for (std::size_t finger = 0; finger < s.size(); ++finger) {
+    const Interval& arc = std::isnan(probability) ? extent[finger] : interval[finger];
+    if (!boundary.is_full(arc) && !boundary.contains(arc, s[finger], slack)) return false;
+  }
+  return true;
+}
+
+Verdict verdict_of(Status status, const std::vector<Placement>& placements) {
+  if (status == Status::incomplete) return {Verdict::undecided};
+  std::size_t count = 0;
+  std::size_t stretches = 0;
+  for (const Placement& placement : placements) {
+    if (placement.is_contradicted) continue;
+    for (const bool whole_loop : placement.whole_loop) {
+      if (whole_loop) return {Verdict::unobservable};
+    }
+    ++count;
+    stretches += placement.kind == Kind::stretch ? 1 : 0;
+  }
+  if (count == 0) return {Verdict::inconsistent};
+  if (count == 1 && stretches == 0) return {Verdict::unique, 1};
+  // Several placements of one finger are counted alike, whatever their kinds.
+  if (count > 1 && placements.front().start.size() == 1) stretches = 0;
+  return {Verdict::ambiguous, count, stretches};
 }
 
 }  // namespace rollfix

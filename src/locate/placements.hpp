@@ -5,7 +5,7 @@
 #include "corner_sets.hpp"
 #include "rollfix/locate.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 /// A connected set of first contacts, as either search leaves it.
 struct FoundSet {
@@ -51,4 +51,4 @@ SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFing
 /// is infinite and the sensitivity empty.
 void describe_slopes(const ContactEquations& question, const SlopeSample* samples, Placement& placement);
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

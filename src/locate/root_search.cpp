@@ -20,7 +20,7 @@
 // is bracketed by Alefeld, Potra and Shi, "Algorithm 748: enclosing zeros of continuous functions" (1995).
 // Idea: on a spiral kappa is monotone, so that its values at both ends of an interval bound f', and with f at the ends
 // they bound f. Either these exclude 0, or f is monotone, convex or concave there and is solved, or it is halved.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // A bracket of a root, or a step to it, that is below this share of the perimeter is the last one.
@@ -372,4 +372,4 @@ bool RootSearch::is_settled(const QuinticRoot& root, const ResidualSample& at) c
 
 void RootSearch::add_piece(double lo, double hi, bool exact) { findings.pieces.push_back({lo, hi, exact, false}); }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

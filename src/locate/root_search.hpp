@@ -10,7 +10,7 @@
 #include "rollfix/locate.hpp"
 #include "rollfix/turning_function.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 /// f and its slope at one first contact s:  f(s) = Theta(s + L) - Theta(s) - theta,  f' = kappa(s + L) - kappa(s).
 struct ResidualSample {
@@ -226,4 +226,4 @@ inline ResidualSample beside(const ResidualSample& at, const ResidualSample& thi
   return sample;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -18,7 +18,7 @@
 // Idea: s runs along the boundary and s + L runs with it. Where either of them passes to another spiral is a cut;
 // between cuts one pair of spirals is searched. A further reading is searched only on the pieces that those before it
 // left.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 class Sweep {
@@ -268,4 +268,4 @@ Search search_one(const ContactEquations& question, const LocateOptions& options
   return search;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -24,7 +24,7 @@
 // fingers", step 6.
 // Idea: intervals on a line have a common point when each two of them have (Helly's theorem in one dimension), so that
 // tau exists when the worst gap between two intervals is 0. That is bounded over nodes of the other finger's tree.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // The other contact is told apart to this share of the perimeter: where the curvature is 1,000 / P, to 1e-10 rad.
@@ -270,4 +270,4 @@ Search search_two(const ContactEquations& question, const LocateOptions& options
   return search;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -8,7 +8,7 @@
 #include "rollfix/locate.hpp"
 #include "root_search.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 /// Stretches of the boundary; mostly there are few.
 using Stretches = boost::container::small_vector<Interval, 4>;
@@ -38,4 +38,4 @@ Search search_two(const ContactEquations& question, const LocateOptions& options
 /// what kind of answer each is. What was found may be in any order, of all readings together.
 std::vector<Placement> make_placements(const ContactEquations& question, Findings found);
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -19,7 +19,7 @@
 // Idea: a cluster is one connected set, and f at its two ends says of which kind. Readings share a root where the steps
 // of Gauss and Newton from one of theirs bring the largest |f| down to rounding. Where there is none, golden sections
 // find what misses least.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // A place known to this share of the perimeter is known as well as it can be.
@@ -308,4 +308,4 @@ std::vector<Placement> make_placements(const ContactEquations& question, Finding
   return placements;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

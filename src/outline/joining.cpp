@@ -27,7 +27,7 @@
 // Idea: the ends in one square are one cluster, and squares at most two apart are looked at point by point; so any
 // number of ends takes little more time than to sort them. Around a loop is the smallest of the larger ones that hold a
 // point of it.
-namespace rollfix {
+namespace rollfix::outline {
 namespace {
 
 using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
@@ -286,4 +286,4 @@ std::vector<int> nesting_depths(const std::vector<Polygon>& polygons) {
   return depths;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::outline

@@ -7,7 +7,7 @@
 #include "rollfix/curve.hpp"
 #include "rollfix/outline.hpp"
 
-namespace rollfix {
+namespace rollfix::outline {
 
 /// What joining curves asks of each of them.
 struct CurveMeasure {
@@ -87,4 +87,4 @@ std::vector<Face> outer_faces(const std::vector<Edge>& edges, std::size_t nodes)
 /// falling area, so that none lies in one after it.
 std::vector<int> nesting_depths(const std::vector<Polygon>& polygons);
 
-}  // namespace rollfix
+}  // namespace rollfix::outline

@@ -20,7 +20,7 @@
 // Follows docs/files.md, "Loops".
 // Idea: entities' own chains first, then what is drawn twice goes, then chains are joined where two ends meet. Of what
 // branches nothing is guessed: it is left out, or its outside is taken where that is asked for (outer_face.cpp).
-namespace rollfix {
+namespace rollfix::outline {
 
 namespace {
 
@@ -418,11 +418,15 @@ class Assembler {
 
 }  // namespace
 
+}  // namespace rollfix::outline
+
+namespace rollfix {
+
 double enclosed_area(const Outline& outline) {
   double twice_area = 0;
   const Vec2 origin = outline.curves.front().front();
   for (const Curve& curve : outline.curves) {
-    const CurveMeasure one = measure(curve);
+    const outline::CurveMeasure one = outline::measure(curve);
     twice_area += one.twice_area + cross(one.front - origin, one.back - one.front);
   }
   return 0.5 * std::abs(twice_area);
@@ -430,7 +434,7 @@ double enclosed_area(const Outline& outline) {
 
 Loops loops(const Drawing& drawing, const LoopOptions& options) {
   const Doing doing("joining the curves of the drawing");
-  return Assembler(drawing, options).run();
+  return outline::Assembler(drawing, options).run();
 }
 
 }  // namespace rollfix

@@ -20,7 +20,7 @@
 // Follows docs/files.md, "Loops".
 // Idea: from the leftmost point on, always the rightmost turn at a node: that is once around the outer face of a plane
 // graph. Where edges leave alike, their curvatures say which is on the right.
-namespace rollfix {
+namespace rollfix::outline {
 
 namespace {
 
@@ -255,4 +255,4 @@ std::vector<Face> outer_faces(const std::vector<Edge>& edges, std::size_t nodes)
   return OuterFace(edges, nodes).run();
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::outline

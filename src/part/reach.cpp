@@ -22,7 +22,7 @@
 //   slack           what depth is let pass
 // Follows docs/reach.md, "How it is decided" and "The slack".
 // Idea: decisions of reach_search.cpp come in the order of the boundary, and what joins on is one arc.
-namespace rollfix {
+namespace rollfix::part {
 namespace {
 
 // Arcs count as a share of the perimeter longer at both ends: rounding of arc lengths that come from elsewhere.
@@ -155,6 +155,10 @@ Hit deepest_hit(BoundaryTree& tree, double curvature, double s, double angle) {
 
 }  // namespace
 
+}  // namespace rollfix::part
+
+namespace rollfix {
+
 bool PivotReach::is_whole() const {
   return angles.size() == 1 && angles.front().lo <= whole.lo && angles.front().hi >= whole.hi;
 }
@@ -193,7 +197,7 @@ double Reach::share() const {
 }
 
 std::optional<Interval> Reach::arc_at(double s) const {
-  const double rounding = kArcRounding * perimeter;
+  const double rounding = part::kArcRounding * perimeter;
   for (const Interval& arc : arcs) {
     const double turns = closed ? std::floor((s + rounding - arc.lo) / perimeter) : 0;
     const Interval moved{arc.lo + turns * perimeter - rounding, arc.hi + turns * perimeter + rounding};
@@ -205,7 +209,7 @@ std::optional<Interval> Reach::arc_at(double s) const {
 bool Reach::contains(double s) const {
   if (arc_at(s)) return true;
   return std::any_of(pivots.begin(), pivots.end(), [&](const PivotReach& pivot) {
-    return !pivot.angles.empty() && boundary().distance(s, pivot.s) <= kArcRounding * perimeter;
+    return !pivot.angles.empty() && boundary().distance(s, pivot.s) <= part::kArcRounding * perimeter;
   });
 }
 
@@ -217,26 +221,26 @@ Reach reach_of_disk(const Part& part, double radius, const ReachOptions& options
                     radius));
   }
   require_not_lost(part, radius, "a disk with a radius", ": give it in the outline's unit");
-  return reach_of(part, 1 / radius, options);
+  return part::reach_of(part, 1 / radius, options);
 }
 
-Reach reach_of_jaw(const Part& part, const ReachOptions& options) { return reach_of(part, 0, options); }
+Reach reach_of_jaw(const Part& part, const ReachOptions& options) { return part::reach_of(part, 0, options); }
 
 Hit deepest_hit(const Part& part, double curvature, double s, double angle) {
-  BoundaryTree tree(part);
-  return deepest_hit(tree, curvature, s, angle);
+  part::BoundaryTree tree(part);
+  return part::deepest_hit(tree, curvature, s, angle);
 }
 
 Hit deepest_hit(const Part& part, double curvature, const Interval& contacts) {
-  BoundaryTree tree(part);
+  part::BoundaryTree tree(part);
   const TurningFunction& turning = part.turning();
-  Hit deepest = deepest_hit(tree, curvature, contacts.lo, turning.angle(contacts.lo));
+  Hit deepest = part::deepest_hit(tree, curvature, contacts.lo, turning.angle(contacts.lo));
   const Interval pivot{turning.angle(contacts.lo, Side::before), turning.angle(contacts.lo)};
-  for (int k = 0; k <= kHitSamples; ++k) {
-    const double share = static_cast<double>(k) / kHitSamples;
+  for (int k = 0; k <= part::kHitSamples; ++k) {
+    const double share = static_cast<double>(k) / part::kHitSamples;
     const double s = contacts.lo + share * contacts.width();
     const double angle = contacts.width() > 0 ? turning.angle(s) : pivot.lo + share * pivot.width();
-    const Hit hit = deepest_hit(tree, curvature, s, angle);
+    const Hit hit = part::deepest_hit(tree, curvature, s, angle);
     if (hit.depth > deepest.depth) deepest = hit;
   }
   return deepest;

@@ -19,7 +19,7 @@
 // contact, while kappa >= -k, the boundary stays above the rim, and the finger can't enter it. Else it comes below by
 // no more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope: while that is within the slack, and the
 // slopes make sense, the stretch is safe.
-namespace rollfix {
+namespace rollfix::part {
 namespace {
 
 // A stretch turns by no more than this, radians, so that it is close to its chord.
@@ -275,4 +275,4 @@ Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, 
           SafeWalk(tree, curvature, slack, stance, angles, 1).end()};
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::part

@@ -20,7 +20,7 @@
 // Idea: for a set of stances and a stretch of the boundary F is bounded from both sides. The stances are decided when
 // all of the boundary is less deep than the slack, or one point is deeper; else whichever of the two matters more is
 // halved.
-namespace rollfix {
+namespace rollfix::part {
 namespace {
 
 // A penetration that is deeper than the slack by no more than this share of it may count either way.
@@ -357,4 +357,4 @@ bool ReachSearch::is_inside(const BoundaryTree::Node& node, const Interval& arou
   return false;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::part

@@ -8,7 +8,7 @@
 
 #include "rollfix/part.hpp"
 
-namespace rollfix {
+namespace rollfix::part {
 
 /// A tree of stretches of the boundary. Each is near a chord; the short ones are split when somebody asks for it, once
 /// for all who do.
@@ -146,4 +146,4 @@ class ReachSearch {
   std::vector<Decision> decisions_;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::part

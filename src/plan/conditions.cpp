@@ -18,7 +18,7 @@
 // by dx or dN at most. A disk's centre moves by r dx, any point of a body by dx times how far it is from the contact.
 // What is left at an instant, less v, is left all the way to the
 // next; where that is not enough, the interval is halved.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 constexpr std::size_t kConditions = 4;  // friction of a, of b, apart, and stable
@@ -202,4 +202,4 @@ std::optional<Looked> look_at_reach(const Reach& reach, const RollPath& path, st
   return looked;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

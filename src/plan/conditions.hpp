@@ -7,7 +7,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/plan.hpp"
 
-namespace rollfix {
+namespace rollfix::planning {
 
 /// Half the angle of a finger's friction cone, radians: a right angle where its friction is not known, 0 of a wheel.
 double cone_of(const PlanFinger& finger);
@@ -62,4 +62,4 @@ std::vector<Looked> look_at_limits(const PlanProblem& problem, const std::vector
 /// Rows of the plan at equal times.
 void write_rows(const PlanProblem& problem, const RollPath& path, bool expanding, Plan& plan);
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

@@ -19,7 +19,7 @@
 // Idea: rolling fixes all but how the three bodies move and turn together. phi is chosen so that the force keeps its
 // direction in the world, as a gripper's closing does, X so that the middle between both fingers stays: then each moves
 // by half of what one would.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 // Minimum jerk (Flash and Hogan 1985): velocity and acceleration vanish at both ends.
@@ -294,4 +294,4 @@ void write_rows(const PlanProblem& problem, const RollPath& path, bool expanding
   for (const FingerRows& rows : roll.log.fingers) require_readable(rows, roll.log.name);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

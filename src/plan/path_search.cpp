@@ -20,7 +20,7 @@
 // Beside a wheel, on nodes of y the signs of B bracket every y that balances the wheel at a given x; from column to
 // column the balance that goes on is the nearest one. Where a path goes on, B(x, y) has different signs at both of its
 // neighbouring y halfway between the columns; where the wheel turns back it has not.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 // A margin beyond this is as good as any larger one: sensors, parts and friction are hardly known better.
@@ -285,4 +285,4 @@ BalancedPath balanced_path(const ContactWay& a, double goal_a, const ContactWay&
   return result;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

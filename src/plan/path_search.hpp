@@ -6,7 +6,7 @@
 
 #include "plan/roll_path.hpp"
 
-namespace rollfix {
+namespace rollfix::planning {
 
 /// What a search for a path is asked.
 struct PathQuestion {
@@ -42,4 +42,4 @@ BalancedPath balanced_path(const ContactWay& a, double goal_a, const ContactWay&
 /// All y in the range at which a wheel is in balance at finger a's first contact.
 std::vector<double> balances(const ContactWay& a, const ContactWay& b, const Interval& range_b);
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

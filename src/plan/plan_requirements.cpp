@@ -10,7 +10,7 @@
 // What a plan can't be asked, and a problem as a mirror shows it. In a mirror x, angles and angular velocities have the
 // other sign, and what was turned one way turns the other; lengths along the outline as it was drawn, distances and
 // friction are what they were.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 void require_plan_number(std::optional<double> value, const std::string& what, bool above_zero) {
@@ -132,4 +132,4 @@ void out_of_mirror(const PlanProblem& seen, Plan& plan) {
   for (double& force : plan.force) force = std::remainder(std::numbers::pi - force, 2 * std::numbers::pi);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

@@ -2,7 +2,7 @@
 
 #include "rollfix/plan.hpp"
 
-namespace rollfix {
+namespace rollfix::planning {
 
 /// Throws InputError: a problem that contradicts itself, or numbers that are none.
 void require_valid(const PlanProblem& problem);
@@ -16,4 +16,4 @@ PlanProblem in_mirror(const PlanProblem& problem);
 /// Back again. `seen`: the problem in the mirror.
 void out_of_mirror(const PlanProblem& seen, Plan& plan);
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

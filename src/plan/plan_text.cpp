@@ -28,7 +28,7 @@ std::string when(const PlanMargin& margin) {
 
 std::string friction_text(const PlanProblem& problem, const PlanMargin& margin) {
   const PlanFinger& finger = problem.fingers[margin.finger];
-  const std::string name = name_of_finger(problem, margin.finger);
+  const std::string name = planning::name_of_finger(problem, margin.finger);
   const double tilt = margin.allowed - margin.value;
   const double asked = tilt + problem.margin;
   if (!finger.friction || asked >= 0.5 * std::numbers::pi) {
@@ -44,7 +44,7 @@ std::string friction_text(const PlanProblem& problem, const PlanMargin& margin) 
 }
 
 std::string limit_text(const PlanProblem& problem, const PlanMargin& margin) {
-  const std::string name = name_of_finger(problem, margin.finger);
+  const std::string name = planning::name_of_finger(problem, margin.finger);
   const double reached = margin.allowed - margin.value;
   const std::string unit = unit_behind(problem);
   switch (margin.condition) {
@@ -69,11 +69,12 @@ std::string failure_text(const PlanProblem& problem, const PlanMargin& margin) {
       return friction_text(problem, margin);
     case Condition::reach:
       if (margin.value == 0) {
-        return fmt::format("{} can't roll over the concave corner {}", name_of_finger(problem, margin.finger),
+        return fmt::format("{} can't roll over the concave corner {}", planning::name_of_finger(problem, margin.finger),
                            when(margin));
       }
-      return fmt::format("{} would hit the part, first {}: by up to {:.4g}{}", name_of_finger(problem, margin.finger),
-                         when(margin), -margin.value, unit_behind(problem));
+      return fmt::format("{} would hit the part, first {}: by up to {:.4g}{}",
+                         planning::name_of_finger(problem, margin.finger), when(margin), -margin.value,
+                         unit_behind(problem));
     case Condition::apart:
       return fmt::format("the fingers hit each other, first {}: they come to {:.4g}{} at worst{}", when(margin),
                          margin.value, unit_behind(problem),
@@ -96,7 +97,7 @@ std::string failure_text(const PlanProblem& problem, const PlanMargin& margin) {
 std::string success_text(const Plan& plan, const PlanProblem& problem) {
   std::string text;
   for (std::size_t which = 0; which < plan.length.size(); ++which) {
-    text += fmt::format("{}{} rolls by {:.6g}{}", which == 0 ? "" : ", ", name_of_finger(problem, which),
+    text += fmt::format("{}{} rolls by {:.6g}{}", which == 0 ? "" : ", ", planning::name_of_finger(problem, which),
                         plan.length[which], unit_behind(problem));
   }
   return text + fmt::format(", in {:.4g} s", plan.duration);

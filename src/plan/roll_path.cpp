@@ -16,7 +16,7 @@
 // Follows F. N. Fritsch and J. Butland, "A method for constructing local monotone piecewise cubic interpolants" (1984);
 // regula falsi with Illinois' correction: M. Dowell and P. Jarratt (1971). docs/plan.md, "How the motion is chosen".
 // Idea: contacts are asked for many at a time, as a way is walked along once for all of them.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 // A step of a search is at most this share of a turn, of the perimeter, and of the way: then a margin can't change by
@@ -288,4 +288,4 @@ std::vector<Turned> RollPath::rates(const std::vector<double>& at) const {
   return rates;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

@@ -10,7 +10,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/plan.hpp"
 
-namespace rollfix {
+namespace rollfix::planning {
 
 // Notation:
 //   x             how far a finger has turned against the part since its first contact: `turned`. With eq. (2)
@@ -118,4 +118,4 @@ class RollPath {
 std::vector<double> balanced(const ContactWay& a, const ContactWay& b, const std::vector<double>& x,
                              std::vector<double> lo, std::vector<double> hi);
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

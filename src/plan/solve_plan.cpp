@@ -22,7 +22,7 @@
 //   looked          each condition with what is left of it where it is worst: Looked
 // Follows docs/plan.md, "What is checked" and "How the motion is chosen".
 // Idea: even turns are tried first, then the widest path; what is found is looked at as if it had been given.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 // Speeds and travels are looked at in so many instants: they change smoothly, and their largest is known to 1e-5 of it.
@@ -302,22 +302,26 @@ std::vector<std::string> unchecked_of(const PlanProblem& problem) {
 
 }  // namespace
 
+}  // namespace rollfix::planning
+
+namespace rollfix {
+
 Plan solve(const PlanProblem& problem) {
-  require_valid(problem);
+  planning::require_valid(problem);
   if (problem.mirrored) {
-    const PlanProblem seen = in_mirror(problem);
+    const PlanProblem seen = planning::in_mirror(problem);
     Plan plan = solve(seen);
-    out_of_mirror(seen, plan);
+    planning::out_of_mirror(seen, plan);
     return plan;
   }
-  Making making{problem, reaches_of(problem), {}, {}};
-  making.plan.unchecked = unchecked_of(problem);
+  planning::Making making{problem, planning::reaches_of(problem), {}, {}};
+  making.plan.unchecked = planning::unchecked_of(problem);
   if (problem.fingers.size() == 1) {
-    plan_one(making);
+    planning::plan_one(making);
   } else if (problem.fingers[1].wheel) {
-    plan_beside_wheel(making);
+    planning::plan_beside_wheel(making);
   } else {
-    plan_two(making);
+    planning::plan_two(making);
   }
   return std::move(making.plan);
 }

@@ -10,7 +10,7 @@
 // Notation as in squeeze.hpp. Between two instants, each contact going one way, a bound of the stability takes each
 // term's worst: curvatures are monotone on spirals, so that their ends and the joints between them are all that is
 // looked at.
-namespace rollfix {
+namespace rollfix::planning {
 namespace {
 
 double angle_of(const Vec2& vector) { return std::atan2(vector.y(), vector.x()); }
@@ -160,4 +160,4 @@ double stability_between(const ContactWay& way_a, const ContactWay& way_b, const
   return least;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

@@ -5,7 +5,7 @@
 
 #include "plan/roll_path.hpp"
 
-namespace rollfix {
+namespace rollfix::planning {
 
 // Notation:
 //   p, q          the contacts of fingers a and b in the part's frame: places s and t
@@ -54,4 +54,4 @@ double stability_of(const ContactWay& way_a, const ContactWay& way_b, const Pair
 /// A lower bound of it all the way between two instants of a path, where each contact goes one way.
 double stability_between(const ContactWay& way_a, const ContactWay& way_b, const PairPlace& one, const PairPlace& two);
 
-}  // namespace rollfix
+}  // namespace rollfix::planning

@@ -4,9 +4,8 @@
 
 #include <utility>
 
-#include "answer/crew.hpp"
-#include "answer/either_way.hpp"
-#include "answer/weighing.hpp"
+#include "work/crew.hpp"
+#include "answer/steps.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/solve.hpp"
 #include "uses.hpp"
@@ -87,7 +86,7 @@ Problem roll_problem(const Question& question) {
     }
     problem.tolerance = question.tolerance->angle;
   }
-  return question.direction == Direction::clockwise ? counted_clockwise(problem) : problem;
+  return View{false, question.direction == Direction::clockwise}.of(problem);
 }
 
 TouchProblem rest_problem(const Question& question) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "answer/weighing.hpp"
+#include "answer/steps.hpp"
 #include "rollfix/question.hpp"
 
 // Which options go with which contacts. A search takes an option if its problem has the field; what it has no use for

@@ -22,13 +22,13 @@ namespace rollfix {
 
 namespace {
 
-double draw_slip(const Noise& noise, NormalNumbers& normal) {
+double draw_slip(const Noise& noise, rolling::NormalNumbers& normal) {
   const double slip = normal.next(noise.slip);
   if (slip > -1) return slip;
   throw InputError(fmt::format("expected a slip that leaves some roll, found {:.6g}; take less noise", slip));
 }
 
-RollError draw_error(const Finger& finger, const Noise& noise, NormalNumbers& normal) {
+RollError draw_error(const Finger& finger, const Noise& noise, rolling::NormalNumbers& normal) {
   RollError error;
   error.slip = draw_slip(noise, normal);
   if (noise.radius == 0) return error;
@@ -103,7 +103,7 @@ void let_scale(FingerRows& rows, double scale) {
 }
 
 /// It drifts with time.
-void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& noise, NormalNumbers& normal) {
+void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& noise, rolling::NormalNumbers& normal) {
   if (noise.drift == 0 && noise.walk == 0) return;
   const double bias = normal.next(noise.drift);
   double walked = 0;
@@ -113,7 +113,7 @@ void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& n
   }
 }
 
-void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, NormalNumbers& normal) {
+void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, rolling::NormalNumbers& normal) {
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
     rows.u[row] += normal.next(noise.contact) / finger.length_per_u();
     rows.psi[row] += normal.next(noise.angle);
@@ -121,7 +121,8 @@ void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, Norma
 }
 
 /// What the sensors say of this roll of the true fingers.
-void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise& noise, NormalNumbers& normal) {
+void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise& noise,
+               rolling::NormalNumbers& normal) {
   roll.log = roll.truth.log;
   for (std::size_t k = 0; k < fingers.size(); ++k) {
     FingerRows& rows = roll.log.fingers[k];
@@ -216,7 +217,7 @@ Noise noise_of(const Finger& finger, const Finger& other, const Noise& noise) {
 NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
                      std::uint64_t seed) {
   require_valid(noise);
-  NormalNumbers normal(seed);
+  rolling::NormalNumbers normal(seed);
   NoisyRoll result;
   result.error[0] = draw_error(finger, noise, normal);
   const Finger real = true_finger(finger, result.error[0]);
@@ -227,7 +228,7 @@ NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& pla
 
 NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& noise, std::uint64_t seed) {
   require_valid(noise);
-  NormalNumbers normal(seed);
+  rolling::NormalNumbers normal(seed);
   NoisyRoll result;
   result.error = PerFinger<RollError>::of(2);
   FreePlan real = plan;
@@ -249,7 +250,7 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
 
 NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noise, std::uint64_t seed) {
   require_valid(noise);
-  NormalNumbers normal(seed);
+  rolling::NormalNumbers normal(seed);
   NoisyRoll result;
   const Finger wheel = disk(plan.radius);
   result.error = {draw_error(jaw(), noise_of(jaw(), wheel, noise), normal), draw_error(wheel, noise, normal)};
@@ -278,7 +279,7 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
     throw InputError(fmt::format("expected a roll that stays in 0 <= s <= {:.9g}, found one from {:.9g} to {:.9g}",
                                  part.perimeter(), start, end));
   }
-  NormalNumbers normal(seed);
+  rolling::NormalNumbers normal(seed);
   NoisyIncrements result;
   result.error.slip = draw_slip(noise, normal);
   result.log.name = "the increments on " + part.name();

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-namespace rollfix {
+namespace rollfix::rolling {
 
 /// Normal numbers from a seed, the same on all platforms, which std::normal_distribution's are not: the polar method
 /// (Marsaglia 1964) on a generator that the standard fixes.
@@ -41,4 +41,4 @@ class NormalNumbers {
   bool has_spare_ = false;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::rolling

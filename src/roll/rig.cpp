@@ -88,8 +88,8 @@ class Course {
     fall_ = largest_fall();
   }
 
-  const RigState& now() const { return now_; }
-  const RigClosure& closure() const { return closure_; }
+  const rolling::RigState& now() const { return now_; }
+  const rolling::RigClosure& closure() const { return closure_; }
 
   /// On to the time of this row, in as many steps as it needs.
   void go_to(std::size_t row) {
@@ -164,7 +164,7 @@ class Course {
 
   /// How far a row may be from closed. Where a finger hardly fits, a rotation's own rounding is a long way along the
   /// part, which matters to what is squeezed.
-  double closed_to(const RigState& state) const {
+  double closed_to(const rolling::RigState& state) const {
     constexpr double kEpsilon = 8 * std::numeric_limits<double>::epsilon();
     const Vec2 rounding = kEpsilon * (Vec2::Ones() + state.rotations.cwiseAbs());
     const double off = plan_.squeezed ? rounding.dot(state.slope.row(1).cwiseAbs()) : 0;
@@ -182,18 +182,18 @@ class Course {
   }
 
   /// The rig at this time if it can be followed there in one step.
-  std::optional<RigState> try_step(double to) {
+  std::optional<rolling::RigState> try_step(double to) {
     const Vec2 wanted = target(to);
     const Vec2 lead = now_.slope.inverse() * (wanted - now_.value);
     const double reach = kNear * lead.norm() + kRigRounding + kFalls * fall_;
     const Vec2 predicted = now_.rotations + lead;
     Vec2 rotations = predicted;
     double best = std::numeric_limits<double>::infinity();
-    std::optional<RigState> found;
+    std::optional<rolling::RigState> found;
     for (int k = 0; k < kMostIterations; ++k) {
       if (!((rotations - predicted).norm() <= reach)) return std::nullopt;
       try {
-        const RigState state = closure_.at(rotations);
+        const rolling::RigState state = closure_.at(rotations);
         const double off = (state.value - wanted).norm();
         if (!(off < best)) break;
         best = off;
@@ -264,8 +264,8 @@ class Course {
 
   const RigPlan& plan_;
   const std::vector<double>& times_;
-  RigClosure closure_;
-  RigState now_;
+  rolling::RigClosure closure_;
+  rolling::RigState now_;
   Vec2 start_value_ = Vec2::Zero();
   double sign_ = 1;
   double fall_ = 0;
@@ -275,7 +275,8 @@ class Course {
 /// Writes down what is in the world, row by row.
 class Recorder {
  public:
-  Recorder(const Part& part, const RigPlan& plan, const RigState& first) : part_(part), plan_(plan), first_(first) {
+  Recorder(const Part& part, const RigPlan& plan, const rolling::RigState& first)
+      : part_(part), plan_(plan), first_(first) {
     const double tangent = first.jaw.angle + plan.pose.heading;
     const Contact on_jaw = contact_at(jaw(), tangent, plan.u);
     const Vec2 origin = centre_of(jaw(), plan.pose.world(part.point(first.jaw.s)), on_jaw);
@@ -288,7 +289,7 @@ class Recorder {
     roll_.log.fingers[0].u_period = jaw().period();
   }
 
-  void add(double time, const RigState& state) {
+  void add(double time, const rolling::RigState& state) {
     const Pose moved = plan_.jaw ? plan_.jaw(time) : Pose{};
     const Pose jaw_pose{jaw_.x + moved.x, jaw_.y + moved.y, jaw_.heading + moved.heading};
     Pose part{0, 0, plan_.pose.heading + moved.heading - (state.jaw.angle - first_.jaw.angle)};
@@ -324,7 +325,7 @@ class Recorder {
 
   const Part& part_;
   const RigPlan& plan_;
-  RigState first_;
+  rolling::RigState first_;
   Pose jaw_;  // at the start
   double first_v_ = 0;
   Roll roll_;

@@ -27,7 +27,7 @@
 // By rotations the slopes have no curvature in them: a finger that pivots at a corner is like any other.
 // A squeezed rig has g = 0 in place of the second equation, and its places are the zeros of g(s, t) in t:
 //   dg = -cos d ds + dt - D dTheta(t),   stable iff |cos d| r ds/da + (D + r) dg/db > 0, which is the sign of d xi/db.
-namespace rollfix {
+namespace rollfix::rolling {
 namespace {
 
 Vec2 tangent_to(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -142,18 +142,22 @@ RigState RigClosure::state(const Walked& jaw, const Walked& wheel) const {
   return result;
 }
 
+}  // namespace rollfix::rolling
+
+namespace rollfix {
+
 std::vector<double> squeezed_places(const Part& part, double radius, double s) {
   require_valid(disk(radius));
   const double perimeter = part.perimeter();
   if (!std::isfinite(s) || (!part.closed() && !(s >= 0 && s <= perimeter))) {
     throw InputError(fmt::format("{}: expected a jaw's contact on the part, found s = {}", part.name(), s));
   }
-  const Opposite opposite(part, radius, s);
+  const rolling::Opposite opposite(part, radius, s);
   std::vector<double> places;
   double lo = 0;
   double at_lo = opposite.miss(lo);
-  for (int k = 1; k <= kSteps; ++k) {
-    const double hi = perimeter * k / kSteps;
+  for (int k = 1; k <= rolling::kSteps; ++k) {
+    const double hi = perimeter * k / rolling::kSteps;
     const double at_hi = opposite.miss(hi);
     if (at_lo == 0 && opposite.is_grip(lo)) places.push_back(lo);
     if (at_lo * at_hi < 0) {

@@ -7,7 +7,7 @@
 #include "roll/track.hpp"
 #include "rollfix/rolling.hpp"
 
-namespace rollfix {
+namespace rollfix::rolling {
 
 /// What holds of a rig at one instant, and how it changes with both fingers' rotations against the part.
 struct RigState {
@@ -52,4 +52,4 @@ class RigClosure {
   RigState first_;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::rolling

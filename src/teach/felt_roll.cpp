@@ -22,7 +22,7 @@
 //                   fit leaves of the rows and of the ramp: `round_course`, FitSums
 //   chord           of an arc over l that turns by t: l sin(t / 2) / (t / 2); added up the rows' path: `dead_reckoned`
 // Follows docs/teach.md, "What is made of the rows" and "Closing".
-namespace rollfix {
+namespace rollfix::teaching {
 namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2;
@@ -266,6 +266,10 @@ RoundCourse round_course(const FeltRoll& roll, const TurningRuns& lap, int turns
   return without(drift, roll, lap, turns, sums);
 }
 
+}  // namespace rollfix::teaching
+
+namespace rollfix {
+
 std::vector<ReckonedRow> dead_reckoned(const Log& log, const std::optional<Finger>& finger) {
   const bool is_contact = log.kind == LogKind::contact;
   if (log.fingers.size() > 1) throw InputError(fmt::format("{}: expected the log of one finger, found two", log.name));
@@ -295,7 +299,7 @@ std::vector<ReckonedRow> dead_reckoned(const Log& log, const std::optional<Finge
     const double s = reading.length[0] - first_length, angle = direction + reading.turn - first_turn;
     if (!rows.empty()) {
       const double middle = 0.5 * (row.angle + angle);
-      row.point += chord_of(s - row.s, angle - row.angle) * Vec2(std::cos(middle), std::sin(middle));
+      row.point += teaching::chord_of(s - row.s, angle - row.angle) * Vec2(std::cos(middle), std::sin(middle));
     }
     row.s = s;
     row.angle = angle;

@@ -9,7 +9,7 @@
 #include "teach/turning_course.hpp"
 #include "teach/turning_fit.hpp"
 
-namespace rollfix {
+namespace rollfix::teaching {
 
 /// A roll to learn a part from, as it was felt: its rows in the direction of growing length, cut at the corners, how
 /// far they may be off, and where in the world it starts.
@@ -89,4 +89,4 @@ RoundCourse round_course(const FeltRoll& roll, const TurningRuns& lap, int turns
 /// What was taught, for the user to read.
 void add_notes(const FeltRoll& roll, Taught& taught);
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

@@ -17,7 +17,7 @@
 // Follows docs/teach.md, "Closing", 1.
 // Idea: the lap ends where |p(s) - p(0)| is least, place and direction being those of the start. If the roll goes on,
 // the rows of both passes know L better: least squares, row on row and corner on corner, by Gauss and Newton's steps.
-namespace rollfix {
+namespace rollfix::teaching {
 
 namespace {
 
@@ -236,4 +236,4 @@ TurningRuns lay_over(const TurningRuns& runs, const Lap& lap, bool exact,
   return result;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

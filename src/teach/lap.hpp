@@ -5,7 +5,7 @@
 
 #include "teach/turning_course.hpp"
 
-namespace rollfix {
+namespace rollfix::teaching {
 
 /// A roll around a part, and how far it may have drifted on the way.
 struct RoundRoll {
@@ -39,4 +39,4 @@ std::optional<Lap> find_lap(const RoundRoll& roll);
 TurningRuns lay_over(const TurningRuns& runs, const Lap& lap, bool exact,
                      const std::function<double(double)>& drift_share, double near_corner);
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

@@ -22,7 +22,7 @@
 //                   the distance of exact rows do: `turn_allowed`, `gap_allowed`
 //   interpolated    how far every other row is off the curve through the rest, over kInterpolated: `interpolated_`
 // Follows docs/teach.md. Both within what is allowed: the lap closes, and what is off is spread over it.
-namespace rollfix {
+namespace rollfix::teaching {
 
 namespace {
 
@@ -304,9 +304,13 @@ class Teacher {
 
 }  // namespace
 
+}  // namespace rollfix::teaching
+
+namespace rollfix {
+
 Taught teach(const Log& log, const TeachOptions& options) {
   const Doing doing("making a part of the roll");
-  return Teacher(log, options).teach();
+  return teaching::Teacher(log, options).teach();
 }
 
 }  // namespace rollfix

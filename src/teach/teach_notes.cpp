@@ -9,7 +9,7 @@
 #include "outline/turn.hpp"
 #include "text/text.hpp"
 
-namespace rollfix {
+namespace rollfix::teaching {
 namespace {
 
 /// Rows are noisier than was said when they are off by so many times as much.
@@ -106,4 +106,4 @@ class Notes {
 
 void add_notes(const FeltRoll& roll, Taught& taught) { Notes(roll, taught).tell(); }
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

@@ -20,7 +20,7 @@
 // Idea: a corner is where rows turn at one place, or by so much from one to the next. The least change of Theta in the
 // mean square that closes the path is a combination of the gap's derivatives by Theta, which N is: Newton's method on
 // w.
-namespace rollfix {
+namespace rollfix::teaching {
 namespace {
 
 /// Rows at one place that turn by less than this are a bend seen closely, or noise: 6 degrees.
@@ -314,4 +314,4 @@ Closure close_gap(TurningCourse& course) {
   return closure;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

@@ -6,7 +6,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/reading.hpp"
 
-namespace rollfix {
+namespace rollfix::teaching {
 
 /// Rows of a roll between two corners (or ends): the tangent's angle by arc length.
 struct TurningRun {
@@ -88,4 +88,4 @@ struct Closure {
 /// a sin Theta + b cos Theta, which are the gap's derivatives by Theta. Newton's method on a and b.
 Closure close_gap(TurningCourse& course);
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

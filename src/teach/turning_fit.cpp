@@ -16,7 +16,7 @@
 // interpolation" (1980): slopes of the sign of both chords and at most three times the smaller one are enough.
 // Idea: the spans that are off most are halved until every row is within the tolerance; exact rows become nodes
 // themselves where that takes nearly as many spans as rows.
-namespace rollfix {
+namespace rollfix::teaching {
 
 namespace {
 
@@ -230,4 +230,4 @@ TurningNodes fit_round(const TurningRun& run, double turn, const TurningFit& how
   return nodes;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

@@ -5,7 +5,7 @@
 #include "outline/fitted_spline.hpp"
 #include "teach/turning_course.hpp"
 
-namespace rollfix {
+namespace rollfix::teaching {
 
 /// How near to the rows.
 struct TurningFit {
@@ -53,4 +53,4 @@ TurningNodes smooth(const TurningRun& run, const RowErrors& errors, FitSums& sum
 /// The same of a run that goes round and on, see fit_round. Several passes may lie over one another.
 TurningNodes smooth_round(const TurningRun& whole, double turn, const RowErrors& errors, FitSums& sums);
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

@@ -16,7 +16,7 @@
 // Follows docs/teach.md, "What is made of the rows".
 // Idea: a span is halved while the means of its blocks are off by more than chance makes them: a bend that f misses
 // takes neighbouring rows the same way, noise does not.
-namespace rollfix {
+namespace rollfix::teaching {
 
 namespace {
 
@@ -248,4 +248,4 @@ TurningNodes smooth_round(const TurningRun& whole, double turn, const RowErrors&
   return nodes;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::teaching

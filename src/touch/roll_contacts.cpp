@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "answer/observation.hpp"
-#include "answer/weighing.hpp"
+#include "answer/steps.hpp"
+#include "log/jitter.hpp"
 #include "outline/turn.hpp"
 #include "problem.hpp"
 #include "rollfix/error.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "answer/finger_corners.hpp"
+#include "answer/steps.hpp"
 #include "log/log_rows.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"

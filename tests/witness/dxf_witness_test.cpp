@@ -18,7 +18,7 @@ using drawings::length_of;
 using drawings::numbers_of;
 using drawings::perimeter_of;
 using rollfix::Drawing;
-using rollfix::parse_dxf;
+using rollfix::files::parse_dxf;
 
 /// As the witness counts, and to the same share of the length's square.
 constexpr double kAgreement = 1e-9;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "answer/observation.hpp"
+#include "answer/steps.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/question_arguments.hpp"

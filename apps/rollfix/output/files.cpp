@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "answer/crew.hpp"
+#include "work/crew.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::app {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "answer/crew.hpp"
 #include "cells.hpp"
 #include "part/turning_range.hpp"
 #include "profile.hpp"
+#include "work/crew.hpp"
 
 // Notation, as in docs/identify.md, "How parts are ruled out":
 //   cells           16, 64 and 256 equal stretches of a part's boundary: `kCoarseCells`, `kCells`, `kFineCells`
@@ -27,7 +27,7 @@
 // by 256 from the file, then by stretches of the part itself. Each step only looks at what the one before has left. The
 // last one does the same as cells.cpp, on stretches that are halved down to `kShortest` of the perimeter: there the
 // search takes over.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // A stretch is not halved below this share of the perimeter: the search takes over.
@@ -185,4 +185,4 @@ std::vector<PartLeft> Bounds::left_of(const std::vector<std::size_t>& parts, con
   return left;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

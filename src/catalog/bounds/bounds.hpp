@@ -19,15 +19,19 @@ namespace rollfix {
 
 /// What all parts of a catalog are asked first, side by side in memory: 660 bytes a part, and its name.
 struct Catalog::Index {
-  std::vector<Course> courses;
-  std::vector<Profile<kCoarseCells>> coarse;
-  std::vector<Profile<kCells>> cells;
+  std::vector<catalog::Course> courses;
+  std::vector<catalog::Profile<catalog::kCoarseCells>> coarse;
+  std::vector<catalog::Profile<catalog::kCells>> cells;
   std::vector<std::uint8_t> measured;  // its outline is not exact: bounds on it say nothing certain
   /// Read from the file.
-  std::function<std::vector<Profile<kFineCells>>(const std::vector<std::size_t>& parts)> fine;
+  std::function<std::vector<catalog::Profile<catalog::kFineCells>>(const std::vector<std::size_t>& parts)> fine;
   /// Of touches: of the part itself, when it is first asked for.
-  std::function<CellPlaces(std::size_t part)> places;
+  std::function<catalog::CellPlaces(std::size_t part)> places;
 };
+
+}  // namespace rollfix
+
+namespace rollfix::catalog {
 
 /// A part that is left, and where on it the roll can have started, of each way in which it may have gone: without cells
 /// not that way. Nothing of any way: nothing is known.
@@ -81,4 +85,4 @@ class TouchBounds {
   double radius_ = 0;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

@@ -22,7 +22,7 @@
 // Follows eqs. (4), (5), and of two fingers (8), (9) of the paper (Jia, IROS 2001); docs/identify.md as above.
 // Idea: a cell is left where the intervals of tau of all readings meet. Bounds are covers and roundings go outwards, so
 // that no start that fits is lost. Of two fingers pairs of cells are compared, and what both turn must differ by theta.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 constexpr float kNothingYet = std::numeric_limits<float>::infinity();
@@ -317,4 +317,4 @@ template Cells<kCoarseCells> cells_left(const Profile<kCoarseCells>&, const Cour
 template Cells<kCells> cells_left(const Profile<kCells>&, const Course&, const Clues&, const Cells<kCoarseCells>&);
 template Cells<kFineCells> cells_left(const Profile<kFineCells>&, const Course&, const Clues&, const Cells<kCells>&);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

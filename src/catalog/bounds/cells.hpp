@@ -10,7 +10,7 @@
 #include "profile.hpp"
 #include "rollfix/part.hpp"
 
-namespace rollfix {
+namespace rollfix::catalog {
 
 /// What one reading asks of the tangent at the start, as if its own error were none; and 1 / its variance.
 template <typename Lanes>
@@ -109,4 +109,4 @@ extern template Cells<kFineCells> cells_left(const Profile<kFineCells>&, const C
 /// itself, until nothing is left or halves are not worth looking at any more.
 bool may_start(const Part& part, const Clues& clues, const Cells<kFineCells>& cells);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

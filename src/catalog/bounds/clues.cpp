@@ -7,9 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "answer/either_way.hpp"
-#include "answer/observation.hpp"
-#include "answer/weighing.hpp"
+#include "answer/steps.hpp"
 #include "belief/error_model.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
@@ -23,7 +21,7 @@
 // Follows docs/identify.md, "How parts are ruled out"; the noise is docs/belief.md, "What the noise is".
 // Idea: what is known of a roll before a part is known: its rows, far apart ones first, with slacks that hold on every
 // part of the catalog, whatever its perimeter.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // Rows that are looked at first, and then: more tell little more, and take time.
@@ -210,16 +208,14 @@ RollClues clues_without_noise(const Problem& problem, const Observation& observe
 }  // namespace
 
 std::array<std::vector<RollClues>, 2> clues_of(const Catalog& catalog, const Problem& like, double excess) {
-  const Problem seen = like.mirrored ? in_mirror(like) : like;
   const Interval range = perimeters(catalog);
   std::array<std::vector<RollClues>, 2> clues;
   for (const bool is_reversed : {false, true}) {
     std::size_t k = 0;
     while (k < catalog.size() && catalog.entry(k).reversed != is_reversed) ++k;
     if (k == catalog.size()) continue;
-    std::vector<Problem> ways{seen};
-    if (like.either_way) ways.push_back(counted_clockwise(seen));
-    for (Problem& way : ways) {
+    for (const View& view : views_of(like)) {
+      Problem way = view.of(like);
       way.part = catalog.part(k);
       try {
         const Observation observed = observe(way);
@@ -233,4 +229,4 @@ std::array<std::vector<RollClues>, 2> clues_of(const Catalog& catalog, const Pro
   return clues;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

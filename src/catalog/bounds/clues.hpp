@@ -9,7 +9,7 @@
 #include "rollfix/reading.hpp"
 #include "rollfix/solve.hpp"
 
-namespace rollfix {
+namespace rollfix::catalog {
 
 /// A reading, and how far it may be off.
 struct Clue {
@@ -46,4 +46,4 @@ struct RollClues {
 /// `excess`: so many times the noise that was said is let pass.
 std::array<std::vector<RollClues>, 2> clues_of(const Catalog& catalog, const Problem& like, double excess);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

@@ -22,7 +22,7 @@
 // loses nothing, and four cells of a finer profile make one of the coarser. No place of a cell is further than h / 2
 // from its middle, because p goes at unit speed. Normals that turn by at most w lie in the disc about cos w n(m) of
 // radius sin w.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 // Joints may be on either side of a cell's end by rounding: cells are looked at this share of them farther.
@@ -203,4 +203,4 @@ template std::vector<CentreCell> centre_cells(const Profile<kCoarseCells>&, cons
 template std::vector<CentreCell> centre_cells(const Profile<kCells>&, const Middles<kCells>&, double, double);
 template std::vector<CentreCell> centre_cells(const Profile<kFineCells>&, const Middles<kFineCells>&, double, double);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

@@ -14,7 +14,7 @@
 
 // The least and the largest Theta on equal cells of the boundary. Whatever lies in a cell lies between its bounds, so
 // that nothing that fits is lost; see docs/identify.md.
-namespace rollfix {
+namespace rollfix::catalog {
 
 // Rounding in single precision: of sums of a few turns, radians, and of lengths, as a share, as they occur in bounds.
 inline constexpr double kTurnRounding = 2e-5;
@@ -87,4 +87,4 @@ extern template std::vector<CentreCell> centre_cells(const Profile<kCells>&, con
 extern template std::vector<CentreCell> centre_cells(const Profile<kFineCells>&, const Middles<kFineCells>&, double,
                                                      double);
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

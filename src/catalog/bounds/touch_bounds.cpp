@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "answer/crew.hpp"
 #include "outline/turn.hpp"
 #include "profile.hpp"
 #include "touch/measured.hpp"
 #include "touch/problem.hpp"
+#include "work/crew.hpp"
 
 // Notation, as in docs/touch.md, "How it works":
 //   q_i, delta_i    a touch's measured centre, and how far it may be off: `Measured::at`, `place_most`
@@ -21,7 +21,7 @@
 // Follows docs/identify.md, "Touches".
 // Idea: the search of src/touch/cell_search.cpp down to 256 cells, on what is kept of a part. It stops at the first
 // pair of cells that may hold all touches, or when a look at the part itself costs no more: then the part is left.
-namespace rollfix {
+namespace rollfix::catalog {
 namespace {
 
 using touch::HeadingArc;
@@ -224,4 +224,4 @@ std::vector<std::size_t> TouchBounds::left_of(const std::vector<std::size_t>& pa
   return left;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::catalog

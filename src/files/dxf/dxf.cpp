@@ -261,7 +261,7 @@ void expand(const Model& model, const TagReader& reader, const std::string& laye
 }  // namespace
 }  // namespace rollfix::dxf
 
-namespace rollfix {
+namespace rollfix::files {
 
 Drawing parse_dxf(std::string_view bytes, const std::string& name, const DxfOptions& options) {
   const std::unique_ptr<dxf::TagReader> reader = dxf::open_tags(bytes, name);
@@ -273,4 +273,4 @@ Drawing parse_dxf(std::string_view bytes, const std::string& name, const DxfOpti
   return drawing;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::files

@@ -15,7 +15,7 @@
 #include "rollfix/outline.hpp"
 #include "text/text.hpp"
 
-namespace rollfix {
+namespace rollfix::files {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::variant<Outline, Drawing> parse_json_outline(std::string_view text, const s
   throw InputError(fmt::format("{}: holds something else, {}", name, kExpected));
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::files

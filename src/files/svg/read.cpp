@@ -16,7 +16,7 @@
 #include "outline/refusals.hpp"
 #include "text/text.hpp"
 
-namespace rollfix {
+namespace rollfix::files {
 
 namespace {
 
@@ -430,4 +430,4 @@ Drawing parse_svg(std::string_view text, const std::string& name) {
   return {name, walker.unit, std::move(curves.curves), walker.left_out.notes()};
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::files

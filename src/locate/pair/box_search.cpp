@@ -24,7 +24,7 @@
 // Hadamard's global inverse theorem, for f continued beyond the box by its tangents.
 // Idea: a box goes when the two sides can't meet. Where `radius` is below 1 it has one root at the most, and Newton's
 // method says whether. What is neither is followed as a line (line_search.cpp) or halved.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // The simplified Newton step must contract by this at least, in the end: then the box has one root at the most.
@@ -432,4 +432,4 @@ bool BoxSearch::corners_vanish(const PairBoxSides& sides) const {
   return true;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -14,7 +14,7 @@
 #include "range.hpp"
 #include "roll_curve.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 /// Where a residual varies by this share of the tolerance, all is in or out as its middle is.
 inline constexpr double kSmallVariation = 0.25;
@@ -239,4 +239,4 @@ class BoxSearch {
   std::vector<Box> waiting_;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -13,7 +13,7 @@
 //   slant           the direction that roots are sorted along
 // Follows docs/search.md, "Two fingers", step 7.
 // Idea: connected components of what touches: each is one placement.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 bool holds(const PairBox& box, const PairPoint& at) {
@@ -179,4 +179,4 @@ std::vector<PairCluster> join_pieces(const Part& part, const PairFindings& findi
   return Joiner(part, findings, same_place).run();
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

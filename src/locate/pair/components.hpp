@@ -11,7 +11,7 @@
 #include "pair_find.hpp"
 #include "rollfix/part.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 // What is near is looked for along a slant, s + kSlant t: on a part that repeats itself as many pieces as repetitions
 // have the same s, or the same t. By the golden ratio, which is far from all fractions.
@@ -80,4 +80,4 @@ std::vector<PairCluster> join_pieces(const Part& part, const PairFindings& findi
 /// One placement for each connected set: its kind, its roots, how sure they are; ordered by start.
 std::vector<Placement> make_placements(const ContactEquations& question, const std::vector<PairCluster>& clusters);
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -14,7 +14,7 @@
 // T. K. Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line" (1973).
 // Idea: depth-first through the exact pieces; where a branch ends the line goes back the way it came, so that it stays
 // one line through all of them.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // A family's line keeps no point that is closer than this share of the perimeter to the line through the others.
@@ -260,4 +260,4 @@ FamilyLine line_through_family(const std::vector<PairPiece>& pieces, const std::
   return Tracer(pieces, links, period).run(members);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

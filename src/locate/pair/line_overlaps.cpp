@@ -15,7 +15,7 @@
 // Follows docs/search.md, "Two fingers", step 5.
 // Idea: on one piece r_k has fewer degrees of freedom than there are samples: zero at all of them, it is zero in
 // between. Where both fingers go straight, its two ends are enough.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // Zero at more points than the functions have degrees of freedom on one piece: zero between them, too.
@@ -168,4 +168,4 @@ void LineSearch::add_beyond(const Place& lo, const Place& hi) {
   if (!passes_by(lo, hi, y)) add_piece(lo, hi, y);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

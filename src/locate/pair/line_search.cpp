@@ -22,7 +22,7 @@
 // found in line_overlaps.cpp.
 // Idea: where both curves run alongside each other J is singular, but one equation is steep. It leaves one variable,
 // and the others are searched along x by branch and prune, with bounds on their slopes, as root_search.cpp does.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // The guide's slope must be at least this share of the steepest slope in the box, so that no error is blown up.
@@ -436,4 +436,4 @@ void LineSearch::add_root(const Place& place, int sign, bool exact) {
   findings_.roots.push_back({contacts(place), sign, sides_.pivots(), exact});
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

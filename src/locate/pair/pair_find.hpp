@@ -8,7 +8,7 @@
 #include "rollfix/locate.hpp"
 #include "rollfix/turning_function.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 /// Two first contacts: s of finger a and t of finger b.
 using PairPoint = std::array<double, 2>;
@@ -85,4 +85,4 @@ struct PairLimits {
   }
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -21,7 +21,7 @@
 // "MULTIPLE SOLUTIONS". Least squares by Levenberg (1944) and Marquardt (1963).
 // Idea: a set is a stretch where f = 0 on a line, a crossing where the signs of its roots do not add up to 0, else it
 // touches. Without a root its start is where the largest |f_k| is least.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // Two finds of one root: closer than this share of the perimeter, f not leaving 0 in between.
@@ -275,4 +275,4 @@ std::vector<Placement> make_placements(const ContactEquations& question, const s
   return placements;
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

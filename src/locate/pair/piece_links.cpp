@@ -23,7 +23,7 @@
 // Follows docs/search.md, "Two fingers", step 7.
 // Idea: sweep along the slant, and link the pieces that touch while their reaches are open. Whether two do is seen by
 // separating axes: pieces are convex sets, or lines of them.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 /// Does a segment come closer than `slack` to a box?
@@ -371,4 +371,4 @@ std::vector<std::vector<PieceLink>> links_of(const std::vector<PairPiece>& piece
   return Linker(pieces, boundary, same_place).run();
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

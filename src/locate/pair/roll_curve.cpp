@@ -17,7 +17,7 @@
 // rates at both ends bound slopes, and each tangent's angle leaves its chord by a quarter of the rate's change times
 // the width at the most: `Combination::value` adds these up before it bounds, so that x A_p + y A_q sees its first
 // contact once.
-namespace rollfix {
+namespace rollfix::locating {
 
 namespace {
 
@@ -414,4 +414,4 @@ std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
   return {left, right};
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -15,7 +15,7 @@
 #include "range.hpp"
 #include "rollfix/part.hpp"
 
-namespace rollfix {
+namespace rollfix::locating {
 
 /// What one finger adds to the equations: (8) and (9) say that two curves meet, A(s) of finger a and B(t) of finger b,
 /// with the components Theta(s + L_k) - Theta(s) + shift_k, one for each reading, and with the facing equation one
@@ -279,4 +279,4 @@ class RollCurve {
   mutable std::size_t evaluations_ = 0;
 };
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -17,7 +17,7 @@
 // (1981).
 // Idea: while both contacts are on one block each, Theta(s + L_c) - Theta(s) is a difference of chords, which is
 // straight, plus a difference of strips. So outlines with very many spirals are bounded without being cut.
-namespace rollfix {
+namespace rollfix::locating {
 namespace {
 
 // A contact's strips are of blocks so large that it passes no more than about this many.
@@ -193,4 +193,4 @@ void RollStrips::bound(const Interval& s, const Span* spans, Range* values) cons
   if (equations_.facing) values[equations_.lengths.size()] = shifted(bound(s, start, nullptr), *equations_.facing);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::locating

@@ -8,6 +8,8 @@
 #include "finger/convex_body.hpp"
 #include "locate/sieve.hpp"
 #include "rollfix/finger.hpp"
+#include "rollfix/pulse.hpp"
+#include "rollfix/rolling.hpp"
 
 // Notation, all of it as the part sees it:
 //   p, Theta     a contact on the part, and the tangent there
@@ -16,7 +18,7 @@
 // Follows docs/rolling.md, "Fingers of any convex shape".
 // Idea: two bodies any of whose points is off by no more than `moved` are in one another by no less than what their
 // middle poses are, less both. So a box of first contacts goes only where no pair in it keeps the fingers apart.
-namespace rollfix {
+namespace rollfix::answer {
 namespace {
 
 // Of the part's and the fingers' size: fingers that touch are apart.
@@ -24,7 +26,9 @@ constexpr double kTouchingRounding = 1e-9;
 // A continuum of pairs is looked at in pieces of this share of the smaller finger's size.
 constexpr double kBodyPiece = 0.05;
 // A million normal numbers are within so many standard deviations.
-constexpr double kFarthestRadius = 5;
+constexpr double kFarthestRow = 5;
+// A disk with an uncertain radius is not taken to be smaller than this share of what was said.
+constexpr double kSmallestDisk = 0.01;
 
 /// No two points of a finger's body are farther apart; of a jaw, which has no ends, 0.
 double extent_of(const Finger& finger) {
@@ -79,7 +83,7 @@ class Rows {
         rolls_(observed.rolls),
         error_(length_error),
         fingers_(finger_of(problem.fingers, 0), finger_of(problem.fingers, 1)) {
-    const double radius = problem.noise ? kFarthestRadius * problem.noise->radius : 0;
+    const double radius = problem.noise ? kFarthestRow * problem.noise->radius : 0;
     for (const Finger* finger : fingers_) {
       slack_ += kTouchingRounding * (part_.perimeter() + extent_of(*finger)) + (finger->is_disk() ? radius : 0);
     }
@@ -143,8 +147,7 @@ class Rows {
   PerFinger<const Finger*> fingers_;
 };
 
-}  // namespace
-
+/// In one another in some row, from wherever in its extent a placement starts.
 std::vector<Impossible> drop_overlapping(const Problem& problem, const Observation& observed, double length_error,
                                          std::vector<Placement>& placements) {
   std::vector<Impossible> dropped;
@@ -163,6 +166,64 @@ std::vector<Impossible> drop_overlapping(const Problem& problem, const Observati
   }
   placements = std::move(kept);
   return dropped;
+}
+
+/// The smallest disk that a finger may be: it lies within any larger one that touches at the same contact, so that all
+/// of them hit what it hits.
+Finger smallest(const Finger& finger, double radius_sd) {
+  if (!finger.is_disk()) return finger;
+  const double radius = finger.disk()->radius;
+  return disk(std::max(radius - kFarthestRow * radius_sd, kSmallestDisk * radius));
+}
+
+PerFinger<Reach> reaches_of(const Problem& problem, std::size_t count) {
+  const double radius_sd = problem.noise ? problem.noise->radius : 0;
+  const Finger a = smallest(problem.fingers.front(), radius_sd), b = smallest(problem.fingers.back(), radius_sd);
+  const Reach reach = reach_of(problem.part, a);
+  if (count == 1) return reach;
+  return {reach, a.curvature(0) == b.curvature(0) ? reach : reach_of(problem.part, b)};
+}
+
+/// How far a rolled length may be off: by its digits, and by its noise.
+double length_error(const Problem& problem, const Observation& observed) {
+  const double digits = observed.length_error();
+  if (!problem.noise) return digits;
+  double travelled = 0;
+  for (const Reading& roll : observed.rolls) {
+    for (const double length : roll.length) travelled = std::max(travelled, std::abs(length));
+  }
+  const Noise& noise = *problem.noise;
+  double scale = std::hypot(noise.slip, noise.part.length);
+  for (const Finger& finger : problem.fingers) scale = std::hypot(scale, noise.radius * finger.curvature(0));
+  // Of the first contact and of the row.
+  const double contact = std::hypot(noise.contact, noise.contact);
+  return digits + kFarthestRow * std::hypot(contact, scale * travelled);
+}
+
+}  // namespace
+
+void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer) {
+  const Doing doing("looking where the fingers can reach");
+  if (answer.fingers.empty()) return;
+  answer.has_reach = std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach);
+  const double error = length_error(problem, observed);
+  answer.impossible = answer.has_reach
+                          ? drop_unreachable(answer.part, reaches_of(problem, answer.finger_count()), answer.readings,
+                                             answer.placements, observed.rolls, error, problem.may_overlap)
+                          : drop_overlapping(problem, observed, error, answer.placements);
+  for (const Impossible& item : answer.impossible) {
+    ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
+  }
+}
+
+}  // namespace rollfix::answer
+
+namespace rollfix {
+
+bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
+
+Reach reach_of(const Part& part, const Finger& finger) {
+  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
 }
 
 }  // namespace rollfix
