@@ -22,9 +22,9 @@ namespace rollfix {
 
 namespace {
 
-using belief::Comparison;
-using belief::Travel;
-using belief::Way;
+using advising::Comparison;
+using advising::Travel;
+using advising::Way;
 
 // Lengths that are looked at, forward and back, and on each of two fingers' ways.
 constexpr std::size_t kSteps = 400;
@@ -169,7 +169,7 @@ double travel_elsewhere(const std::vector<PartHypothesis>& hypotheses, const std
 /// Which way, and which roll on it.
 std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& hypotheses,
                                             const std::list<Trial>& trials) {
-  const double one_roll = kOneRoll * belief::shortest_perimeter(hypotheses);
+  const double one_roll = kOneRoll * advising::shortest_perimeter(hypotheses);
   const Trial* best = nullptr;
   Choice choice;
   for (const Trial& trial : trials) {
@@ -189,7 +189,7 @@ std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& h
 /// Whether the robot can do this roll from every hypothesis that counts.
 bool can_do(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options, const PerFinger<double>& by) {
   return std::all_of(hypotheses.begin(), hypotheses.end(), [&](const PartHypothesis& one) {
-    return !belief::counts(one, hypotheses.size()) || options.can_roll(one, by);
+    return !advising::counts(one, hypotheses.size()) || options.can_roll(one, by);
   });
 }
 
@@ -246,7 +246,7 @@ Advice advise(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions
   std::vector<double> prior;
   for (const PartHypothesis& one : some) prior.push_back(one.hypothesis.probability);
   std::list<Trial> trials;
-  for (const Way& way : belief::ways_of(some, options)) trials.emplace_back(some, options, way);
+  for (const Way& way : advising::ways_of(some, options)) trials.emplace_back(some, options, way);
   const auto [trial, best] = chosen_of_possible(some, options, trials);
   double most_bits = 0;
   for (const Trial& each : trials) most_bits = std::max(most_bits, each.most.bits);
@@ -254,7 +254,7 @@ Advice advise(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions
   advice.gains = trial->gains;
   advice.best = best;
   advice.way = trial->way.direction;
-  advice.bits_wanted = belief::entropy(prior);
+  advice.bits_wanted = advising::entropy(prior);
   advice.helps = most_bits > kHelp * advice.bits_wanted && best != trial->here;
   return advice;
 }

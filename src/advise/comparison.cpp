@@ -22,7 +22,7 @@
 // Idea: a roll is read all along, so that what has told two places apart stays told: their largest distance counts.
 // Which place is the true one is not known by whoever decides to roll on or back: one way for all, by the mean of
 // `left`.
-namespace rollfix::belief {
+namespace rollfix::advising {
 namespace {
 
 // Of two fingers: one alone, which is the least to do, both, or one half as far as the other.
@@ -176,7 +176,7 @@ Comparison::Seen Comparison::seen_by(std::size_t hypothesis, double x) const {
     const Foreseen foreseen = options_.foresees(one, Way{direction_, {}}.rolled(x));
     return {foreseen.value, foreseen.variance};
   }
-  Seen seen{0, square(options_.turn_sd) / options_.rows};
+  Seen seen{0, belief::square(options_.turn_sd) / options_.rows};
   PerFinger<double> by_place = PerFinger<double>::of(direction_.size());
   for (std::size_t k = 0; k < direction_.size(); ++k) {
     const double length = x * direction_[k];
@@ -184,9 +184,10 @@ Comparison::Seen Comparison::seen_by(std::size_t hypothesis, double x) const {
     const Turning& start = start_[hypothesis][k];
     seen.turn += sign_of(k) * (now.angle - start.angle);
     by_place[k] = sign_of(k) * (now.curvature - start.curvature);
-    seen.variance += (square(options_.length_sd) / options_.rows + square(options_.length_share_sd * length)) *
-                         square(now.curvature) +
-                     square(one.hypothesis.sd[k] * by_place[k]);
+    seen.variance +=
+        (belief::square(options_.length_sd) / options_.rows + belief::square(options_.length_share_sd * length)) *
+            belief::square(now.curvature) +
+        belief::square(one.hypothesis.sd[k] * by_place[k]);
   }
   if (direction_.size() == 2) seen.variance += 2 * by_place[0] * by_place[1] * one.hypothesis.covariance;
   return seen;
@@ -199,7 +200,7 @@ void Comparison::compare_at(double x) {
   for (std::size_t i = 0; i < n; ++i) seen.push_back(seen_by(i, x));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const double squared = square(seen[i].turn - seen[j].turn) / (seen[i].variance + seen[j].variance);
+      const double squared = belief::square(seen[i].turn - seen[j].turn) / (seen[i].variance + seen[j].variance);
       double& most = distance_[i * n + j];
       most = std::max(most, squared);
       distance_[j * n + i] = most;
@@ -342,4 +343,4 @@ double Travel::shorter_way(const Other& ends, double rolled) {
   return on + back + std::min(on, back);
 }
 
-}  // namespace rollfix::belief
+}  // namespace rollfix::advising

@@ -7,7 +7,7 @@
 
 #include "rollfix/advise.hpp"
 
-namespace rollfix::belief {
+namespace rollfix::advising {
 
 // A hypothesis with less probability is not waited for, nor counted among those that remain.
 inline constexpr double kHypothesisCounts = kLeastProbability;
@@ -101,4 +101,4 @@ class Travel {
   std::vector<std::vector<Other>> others_;  // of each hypothesis, those that can be told from it
 };
 
-}  // namespace rollfix::belief
+}  // namespace rollfix::advising

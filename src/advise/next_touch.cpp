@@ -25,7 +25,7 @@
 // Follows docs/touch.md, "The next touch".
 // Idea: all approaches are judged roughly, the most promising ones again closely, until none that is left can be
 // better.
-namespace rollfix::touch {
+namespace rollfix::advising {
 namespace {
 
 // Rolls that are looked at, in shares of the perimeter: steps, and the longest.
@@ -127,11 +127,11 @@ std::optional<RollGain> roll_instead(const TouchAnswer& answer, const std::vecto
 
 }  // namespace
 
-}  // namespace rollfix::touch
+}  // namespace rollfix::advising
 
 namespace rollfix {
 
-namespace touch {
+namespace advising {
 namespace {
 
 // An approach helps where it gains so much of a bit.
@@ -195,10 +195,10 @@ std::string nothing_to_tell(const TouchAnswer& answer) {
 }
 
 }  // namespace
-}  // namespace touch
+}  // namespace advising
 
 NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& approaches) {
-  touch::require_finite(approaches);
+  advising::require_finite(approaches);
   if (!answer.rolls.empty()) {
     throw InputError("next touch: expected an answer to touches alone, found rolls: give their touches by themselves");
   }
@@ -208,21 +208,21 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
         "`budget`");
   }
   NextTouch next;
-  next.why = touch::nothing_to_tell(answer);
+  next.why = advising::nothing_to_tell(answer);
   if (!next.why.empty()) return next;
   const Doing doing("looking for the touch that tells most");
-  touch::PartInPoses lying(answer, touch::likely_poses(answer));
-  touch::TouchGains touches(lying);
-  for (const Approach& approach : approaches.empty() ? touch::approaches_around(lying) : approaches) {
+  advising::PartInPoses lying(answer, touch::likely_poses(answer));
+  advising::TouchGains touches(lying);
+  for (const Approach& approach : approaches.empty() ? advising::approaches_around(lying) : approaches) {
     next.gains.push_back(touches.rough(approach));
   }
-  next.best = touch::best_of(touches, lying.poses().size(), next.gains, approaches.empty());
+  next.best = advising::best_of(touches, lying.poses().size(), next.gains, approaches.empty());
   if (!answer.poses.empty()) {
-    for (touch::Forecast& one : touches.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
+    for (advising::Forecast& one : touches.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
   }
   next.bits_wanted = touches.bits_wanted();
-  next.roll = touch::roll_instead(answer, lying.poses(), lying.part());
-  next.helps = next.advised().bits >= touch::kLeastBits;
+  next.roll = advising::roll_instead(answer, lying.poses(), lying.part());
+  next.helps = next.advised().bits >= advising::kLeastBits;
   if (next.helps) return next;
   next.why = approaches.empty() ? "no touch tells these poses apart: the part looks the same in each, within the noise"
                                 : "none of these approaches tells the poses apart";

@@ -20,7 +20,7 @@
 // Follows docs/touch.md, "The next touch".
 // Idea: a touch tells two poses apart by how far away from each other it would end in them. Each way is traced in steps
 // of the part's distance (sphere tracing) and judged by the x_i, the most promising ones again by all sides.
-namespace rollfix::touch {
+namespace rollfix::advising {
 namespace {
 
 // Approaches where none are given: directions all around, and parallel ways in each.
@@ -276,4 +276,4 @@ double TouchGains::square_apart(const Forecast& a, const Forecast& b) const {
                    a.turn_variance + b.turn_variance);
 }
 
-}  // namespace rollfix::touch
+}  // namespace rollfix::advising

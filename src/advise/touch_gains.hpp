@@ -6,7 +6,11 @@
 #include "touch/likely_poses.hpp"
 #include "touch/nearest.hpp"
 
-namespace rollfix::touch {
+namespace rollfix::advising {
+
+using touch::LikelyPose;
+using touch::NearestOfPart;
+using touch::PartDistance;
 
 /// A part as it may lie, by an answer that has to outlive it: its likely poses, and a circle around it in all of them.
 class PartInPoses {
@@ -87,4 +91,4 @@ class TouchGains {
   double turn_sd_ = 0;
 };
 
-}  // namespace rollfix::touch
+}  // namespace rollfix::advising
