@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "steps.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/solve.hpp"
+#include "steps.hpp"
 
 namespace rollfix::answer {
 

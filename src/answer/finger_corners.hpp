@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "steps.hpp"
 #include "rollfix/solve.hpp"
+#include "steps.hpp"
 
 // Logs of fingers with corners: on them a row's u does not tell how the finger's normal is turned, off them it does,
 // whatever lay between.

@@ -4,8 +4,8 @@
 #include <limits>
 #include <tuple>
 
-#include "work/crew.hpp"
 #include "rollfix/error.hpp"
+#include "work/crew.hpp"
 
 namespace rollfix {
 namespace {

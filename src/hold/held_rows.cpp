@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "log/jitter.hpp"
 #include "belief/nodes.hpp"
 #include "belief/posterior.hpp"
+#include "log/jitter.hpp"
 #include "problem.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "log/log_rows.hpp"
 #include "outline/turn.hpp"
 #include "problem.hpp"
 #include "touch/mistakes.hpp"
@@ -136,10 +137,7 @@ Log with_rows(const Log& log, const std::vector<std::size_t>& rows) {
   choose(result.time, log.time);
   const FingerRows& from = log.fingers.front();
   FingerRows& to = result.fingers.front();
-  for (const auto column : {&FingerRows::u, &FingerRows::psi, &FingerRows::length, &FingerRows::turn, &FingerRows::x,
-                            &FingerRows::y, &FingerRows::distance, &FingerRows::dturn}) {
-    choose(to.*column, from.*column);
-  }
+  for (const auto column : kRowColumns) choose(to.*column, from.*column);
   choose(to.line, from.line);
   return result;
 }

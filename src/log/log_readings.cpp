@@ -331,9 +331,7 @@ Log from_row(Log log, std::size_t row) {
   };
   cut(log.time);
   for (FingerRows& rows : log.fingers) {
-    for (auto* column : {&rows.u, &rows.psi, &rows.length, &rows.turn, &rows.x, &rows.y, &rows.distance, &rows.dturn}) {
-      cut(*column);
-    }
+    for (const auto column : kRowColumns) cut(rows.*column);
     cut(rows.line);
   }
   return log;

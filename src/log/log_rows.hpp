@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,6 +14,11 @@
 #include "rollfix/log.hpp"
 
 namespace rollfix {
+
+/// The columns with a number of each row: what takes rows out of a log or chooses some goes through these.
+inline constexpr std::array<std::vector<double> FingerRows::*, 8> kRowColumns = {
+    &FingerRows::u, &FingerRows::psi, &FingerRows::length,   &FingerRows::turn,
+    &FingerRows::x, &FingerRows::y,   &FingerRows::distance, &FingerRows::dturn};
 
 /// A number and half a unit of its last digit, 0 where it counts as exact.
 struct WrittenValue {

@@ -79,7 +79,8 @@ void keep_between(Log& log, double first, double last) {
                     log.name, to <= from ? "no row" : "1 row"));
   }
   FingerRows& rows = log.fingers[0];
-  for (std::vector<double>* column : {&log.time, &rows.u, &rows.psi, &rows.x, &rows.y}) keep(*column, from, to);
+  keep(log.time, from, to);
+  for (const auto column : kRowColumns) keep(rows.*column, from, to);
   keep(rows.line, from, to);
 }
 

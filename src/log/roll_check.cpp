@@ -335,7 +335,7 @@ Log without_strays(const Log& log, const Part& part, const std::vector<Finger>& 
   Log result = log;
   erase_rows(result.time, strays);
   for (FingerRows& rows : result.fingers) {
-    for (auto* column : {&rows.u, &rows.psi, &rows.length, &rows.turn, &rows.x, &rows.y}) erase_rows(*column, strays);
+    for (const auto column : kRowColumns) erase_rows(rows.*column, strays);
     for (auto row = strays.rbegin(); row != strays.rend(); ++row) {
       if (*row < rows.line.size()) rows.line.erase(rows.line.begin() + static_cast<long>(*row));
     }

@@ -4,11 +4,11 @@
 
 #include <utility>
 
-#include "work/crew.hpp"
 #include "answer/steps.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/solve.hpp"
 #include "uses.hpp"
+#include "work/crew.hpp"
 
 namespace rollfix {
 namespace {

@@ -16,8 +16,8 @@
 #include <system_error>
 #include <utility>
 
-#include "work/crew.hpp"
 #include "rollfix/error.hpp"
+#include "work/crew.hpp"
 
 namespace rollfix::app {
 namespace {
