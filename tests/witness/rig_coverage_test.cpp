@@ -83,7 +83,7 @@ void expect_covered(const Counted& counted) {
   print(counted);
 }
 
-TEST(RigCoverage, APinsPlaceCoversTheTruthAsOftenAsItSays) { expect_covered(counted(test_count(40), false, 0)); }
+TEST(RigCoverage, APinsPlaceCoversTheTruthAsOftenAsItSays) { expect_covered(counted(test_count(20), false, 0)); }
 
 TEST(RigCoverage, AnEncoderBesidesAsWell) { expect_covered(counted(test_count(20), true, 0)); }
 
@@ -105,7 +105,7 @@ struct Squeezed {
 Counted counted_squeezed(const Squeezed& how) {
   std::mt19937_64 generator(4);
   Counted counted;
-  for (int k = 0; k < test_count(20); ++k) {
+  for (int k = 0; k < test_count(10); ++k) {
     const Part part = rollfix::load_part(kSqueezed[static_cast<std::size_t>(k) % kSqueezed.size()]);
     const double P = part.perimeter();
     const squeezed_cases::Squeeze squeeze{

@@ -125,7 +125,7 @@ TEST(TouchCoverage, SixBallsOneAnOutlierOnSmoothParts) {
   tally(test_count(40), {6, 0, 0.04, 0.001, kDegree}, smooth, true).expect_calibrated();
 }
 TEST(TouchCoverage, TwentyPlacesOneAnOutlierOnSmoothParts) {
-  tally(test_count(40), {20, 0, 0, 0.003, kDegree}, smooth, true).expect_calibrated();
+  tally(test_count(15), {20, 0, 0, 0.003, kDegree}, smooth, true).expect_calibrated();
 }
 
 }  // namespace touch_coverage_test
