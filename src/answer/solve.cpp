@@ -192,13 +192,19 @@ Answer solve_roll(const Problem& problem, bool explains) {
   return answer;
 }
 
-/// As it is seen. `explains`: what may be wrong is looked for where the rows fit badly.
-Answer solve_seen(const Problem& problem, const View& view, bool explains) {
-  Problem seen = view.of(problem);
+/// As it is given. `explains`: what may be wrong is looked for where the rows fit badly.
+Answer solve_given(const Problem& problem, bool explains) {
+  if (!problem.robust || !problem.measured.is_log()) return solve_roll(problem, explains);
   std::vector<std::size_t> strays;
-  if (seen.robust && seen.measured.is_log()) seen = without_jumps(seen, strays);
-  Answer answer = solve_roll(seen, explains);
+  const Problem cleaned = without_jumps(problem, strays);
+  Answer answer = solve_roll(cleaned, explains);
   answer.strays = std::move(strays);
+  return answer;
+}
+
+Answer solve_seen(const Problem& problem, const View& view, bool explains) {
+  if (view.is_as_given()) return solve_given(problem, explains);
+  Answer answer = solve_given(view.of(problem), explains);
   view.undo(problem, answer);
   return answer;
 }

@@ -20,6 +20,7 @@ struct View {
   bool mirrored = false;
   bool clockwise = false;
 
+  bool is_as_given() const { return !mirrored && !clockwise; }
   /// The problem as it is seen so; what u and psi say is counter-clockwise either way.
   Problem of(const Problem& problem) const;
   /// The answer to that, as the world has it: readings, sensitivities and facing with their own signs, and poses of a
