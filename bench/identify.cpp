@@ -73,21 +73,21 @@ Problem problem_on(const Part& part, const Knowledge& knowledge, double s, std::
   return problem;
 }
 
-struct Question {
+struct Asked {
   Problem problem;
   std::size_t part = 0;  // that it really was
 };
 
 struct Row {
   Knowledge knowledge;
-  std::vector<Question> questions;
+  std::vector<Asked> questions;
   double searched = 0;    // parts that bounds leave
   double listed = 0;      // that fit
   std::size_t found = 0;  // the true part among them
   bench::Program::Job job = 0;
 };
 
-Identified ask(const Catalog& catalog, const Question& question) {
+Identified ask(const Catalog& catalog, const Asked& question) {
   IdentifyOptions options;
   options.threads = 1;
   return identify(catalog, question.problem, options);
@@ -105,7 +105,7 @@ Row row_of(const Catalog& catalog, const Knowledge& knowledge, std::size_t rolls
     } catch (const InputError&) {  // the finger does not fit in there
     }
   }
-  for (const Question& question : row.questions) {
+  for (const Asked& question : row.questions) {
     const Identified found = ask(catalog, question);
     row.searched += static_cast<double>(found.searched + found.searched_widely) / static_cast<double>(rolls);
     row.listed += static_cast<double>(found.parts.size()) / static_cast<double>(rolls);
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   }
   for (Row& row : rows) {
     const auto ask_all = [&] {
-      for (const Question& question : row.questions) bench::keep(ask(catalog, question));
+      for (const Asked& question : row.questions) bench::keep(ask(catalog, question));
     };
     row.job = program.add(row.knowledge.name, ask_all, row.questions.size(), kRepetitions);
   }
