@@ -110,6 +110,19 @@ TEST(LogChecks, a_place_far_off_is_a_jump_of_each_finger) {
   }
 }
 
+TEST(LogChecks, a_stray_row_is_left_out_of_every_column) {
+  std::string rows = "time,distance,dturn\n0,0,0\n";
+  for (int k = 1; k <= 12; ++k) rows += fmt::format("{},0.1,{}\n", k, k == 6 ? 30.05 : k == 7 ? -29.95 : 0.05);
+  const Log log = parse_log(rows, "steps.csv");
+  std::vector<std::size_t> lines;
+  const Log left = without_strays(log, egg(), {}, Noise{0.01, 0.01}, &lines);
+  ASSERT_THAT(lines, testing::ElementsAre(8U));
+  for (const auto* column : {&left.time, &left.fingers[0].length, &left.fingers[0].turn, &left.fingers[0].distance,
+                             &left.fingers[0].dturn}) {
+    EXPECT_EQ(column->size(), 12U);
+  }
+}
+
 TEST(LogChecks, an_orientation_far_off_is_a_jump_of_each_finger) {
   for (const std::size_t fingers : {1U, 2U}) {
     for (std::size_t k = 0; k < fingers; ++k) {

@@ -11,6 +11,7 @@
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
 
+// What fingers can't do: reach a place, or be in one another.
 // Notation, all of it as the part sees it:
 //   p, Theta     a contact on the part, and the tangent there
 //   N, c(u)      the finger's own normal and its rim where it touches, in its frame

@@ -21,7 +21,8 @@ struct View {
   bool clockwise = false;
 
   bool is_as_given() const { return !mirrored && !clockwise; }
-  /// The problem as it is seen so; what u and psi say is counter-clockwise either way.
+  /// The problem as it is seen so, which does not ask for that any more; what u and psi say is counter-clockwise either
+  /// way.
   Problem of(const Problem& problem) const;
   /// The answer to that, as the world has it: readings, sensitivities and facing with their own signs, and poses of a
   /// part face down: turn its mirror image (-x, y) by the heading, then move it to x and y.

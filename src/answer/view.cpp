@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -66,6 +67,7 @@ void change_placements(const Change& change, Answer& answer) {
 }
 
 Problem in_mirror(Problem problem) {
+  problem.mirrored = false;
   const std::vector<Finger> fingers = problem.fingers;
   for (Finger& finger : problem.fingers) finger = rollfix::mirrored(finger);
   for (Reading& reading : problem.measured.readings) reading = mirrored(reading);
@@ -87,6 +89,7 @@ void out_of_mirror(const Problem& problem, Answer& answer) {
 }
 
 Problem counted_clockwise(Problem problem) {
+  problem.either_way = false;
   for (Reading& reading : problem.measured.readings) reverse(reading.length);
   if (!problem.measured.is_log()) return problem;
   for (FingerRows& rows : problem.measured.log->fingers) {
