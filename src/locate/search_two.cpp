@@ -45,7 +45,7 @@ class PatchFit {
 
   /// How far it must be from fitting each two components at least, anywhere on a node of one piece: both have the first
   /// contact, which bounds on each alone do not know.
-  double slack_of_two(const RollCurve& curve, std::int32_t index, const std::vector<Range>& values) const {
+  double slack_of_two(const PlaneCurve& curve, std::int32_t index, const std::vector<Range>& values) const {
     return least(values, [&](double lap) { return slack_of_each_two(curve, index, lap); });
   }
 
@@ -86,15 +86,15 @@ class PatchFit {
     return worst;
   }
 
-  double slack_of_each_two(const RollCurve& curve, std::int32_t index, double lap) const {
+  double slack_of_each_two(const PlaneCurve& curve, std::int32_t index, double lap) const {
     const double width = curve.node(index).width();
-    const RollCurve::Component* of = curve.components(index);
+    const PlaneCurve::Component* of = curve.components(index);
     double worst = 0;
     for (std::size_t p = 0; p + 1 < curve.rows(); ++p) {
       const Range& end = patch_.tangents[p + 1];
       for (std::size_t q = p + 1; q < curve.rows(); ++q) {
         const bool faces = is_facing(q, curve.rows());
-        const Range value = RollCurve::Combination{1, faces ? 1.0 : -1.0, of[p], of[q]}.value(width);
+        const Range value = PlaneCurve::Combination{1, faces ? 1.0 : -1.0, of[p], of[q]}.value(width);
         const Range wanted = faces ? end - Range{lap, lap} : end - patch_.tangents[q + 1];
         worst = std::max({worst, 0.5 * (wanted.least - value.most), 0.5 * (value.least - wanted.most)});
       }
@@ -106,16 +106,20 @@ class PatchFit {
   const PairLimits& limits_;
 };
 
-std::vector<Range> values_at(const RollPoint& point) {
+/// At one end of a node.
+std::vector<Range> values_at(const PlaneCurve& curve, std::int32_t index, double PlaneCurve::Component::*end) {
   std::vector<Range> values;
-  for (const double value : point.value) values.push_back({value, value});
+  for (std::size_t row = 0; row < curve.rows(); ++row) {
+    const double value = curve.components(index)[row].*end;
+    values.push_back({value, value});
+  }
   return values;
 }
 
 /// One patch against the other finger's whole curve.
 class PatchSearch {
  public:
-  PatchSearch(const RollPatch& patch, RollCurve& other, bool patched_is_a, const PairLimits& limits,
+  PatchSearch(const RollPatch& patch, PlaneCurve& other, bool patched_is_a, const PairLimits& limits,
               std::size_t& budget, PairFindings& findings)
       : patch_(patch),
         other_(other),
@@ -142,13 +146,13 @@ class PatchSearch {
     for (std::size_t row = 0; row < values_.size(); ++row) values_[row] = other_.components(index)[row].value;
     const bool one_lap = !limits_.facing || values_.back().spread() <= std::numbers::pi;
     if (one_lap && fit_.slack(values_, false) > limits_.tolerance) return;
-    const RollCurve::Node node = other_.node(index);
+    const PlaneCurve::Node node = other_.node(index);
     if (!node.on_one_piece()) {
       halve(index);
       return;
     }
     if (one_lap && fit_.slack_of_two(other_, index, values_) > limits_.tolerance) return;
-    if ((one_lap && fits_all_along(node)) || node.width() <= kResolution * limits_.perimeter) {
+    if ((one_lap && fits_all_along(index)) || node.width() <= kResolution * limits_.perimeter) {
       take(node);
     } else if (budget_ == 0) {
       findings_.unresolved.push_back(box_of(node));
@@ -158,21 +162,24 @@ class PatchSearch {
     }
   }
 
-  bool fits_all_along(const RollCurve::Node& node) const {
+  bool fits_all_along(std::int32_t index) const {
     if (fit_.slack(values_, true) <= limits_.tolerance) return true;
     // The patch is convex and a pivot's curve is straight: it is inside where both of its ends are.
-    return other_.piece(node).pivot_at && fit_.slack(values_at(other_.first(node)), true) <= limits_.tolerance &&
-           fit_.slack(values_at(other_.last(node)), true) <= limits_.tolerance;
+    const auto fits_at = [&](double PlaneCurve::Component::*end) {
+      return fit_.slack(values_at(other_, index, end), true) <= limits_.tolerance;
+    };
+    return other_.pivot_at(other_.node(index)) && fits_at(&PlaneCurve::Component::first) &&
+           fits_at(&PlaneCurve::Component::last);
   }
 
-  PairBox box_of(const RollCurve::Node& node) const {
-    const RollPiece& piece = other_.piece(node);
+  PairBox box_of(const PlaneCurve::Node& node) const {
+    const std::optional<double> pivot_at = other_.pivot_at(node);
     const Interval here{patch_.s, patch_.s};
-    const Interval there{piece.s(node.lo), piece.s(node.hi)};
+    const Interval there{pivot_at.value_or(node.lo), pivot_at.value_or(node.hi)};
     return patched_is_a_ ? PairBox{here, there} : PairBox{there, here};
   }
 
-  void take(const RollCurve::Node& node) {
+  void take(const PlaneCurve::Node& node) {
     PairPiece found;
     found.box = box_of(node);
     found.corner = true;
@@ -193,7 +200,7 @@ class PatchSearch {
   }
 
   const RollPatch& patch_;
-  RollCurve& other_;
+  PlaneCurve& other_;
   bool patched_is_a_;
   const PairLimits& limits_;
   std::size_t& budget_;
@@ -206,7 +213,7 @@ class PatchSearch {
 /// First contacts at which several contacts of one finger stand at convex corners and pivot independently: there its
 /// curve is a patch, and the other finger's curve can run through the patch's inside. Looks where, to the resolution
 /// of the part, on every patch of `patched`; `patched_is_a` says which finger that is. Halving takes from the budget.
-void search_patches(const RollCurve& patched, RollCurve& other, bool patched_is_a, const PairLimits& limits,
+void search_patches(const RollCurve& patched, PlaneCurve& other, bool patched_is_a, const PairLimits& limits,
                     std::size_t& budget, PairFindings& findings) {
   if (other.root() < 0) return;
   for (const RollPatch& patch : patched.patches()) {

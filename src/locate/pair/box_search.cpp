@@ -52,12 +52,12 @@ constexpr double kSmallBoxStep = 1e-6;
 constexpr double kFlatSlope = 1e-9;
 
 Vec2 chord(const BoxSide& side, std::size_t p, std::size_t q) {
-  const RollCurve::Component& one = side.component(p);
-  const RollCurve::Component& two = side.component(q);
+  const PlaneCurve::Component& one = side.component(p);
+  const PlaneCurve::Component& two = side.component(q);
   return {one.last - one.first, two.last - two.first};
 }
 
-RollCurve::Combination combination(const BoxSide& side, const Vec2& by, std::size_t p, std::size_t q) {
+PlaneCurve::Combination combination(const BoxSide& side, const Vec2& by, std::size_t p, std::size_t q) {
   return {by.x(), by.y(), side.component(p), side.component(q)};
 }
 
@@ -74,13 +74,13 @@ double spectral_radius(const Eigen::Matrix2d& bound) {
 }
 
 /// Of a row at a place on each side.
-double residual(const PairBoxSides& sides, const PairLimits& limits, const RollPoint& on_a, const RollPoint& on_b,
+double residual(const PairBoxSides& sides, const PairLimits& limits, const CurvePoint& on_a, const CurvePoint& on_b,
                 std::size_t row) {
-  return on_a.value[row] - on_b.value[row] - sides.shift(row, limits);
+  return on_a.value(row) - on_b.value(row) - sides.shift(row, limits);
 }
 
-double largest_residual(const PairBoxSides& sides, const PairLimits& limits, const RollPoint& on_a,
-                        const RollPoint& on_b) {
+double largest_residual(const PairBoxSides& sides, const PairLimits& limits, const CurvePoint& on_a,
+                        const CurvePoint& on_b) {
   double largest = 0;
   for (std::size_t row = 0; row < sides.a.rows(); ++row) {
     largest = std::max(largest, std::abs(residual(sides, limits, on_a, on_b, row)));
@@ -91,7 +91,7 @@ double largest_residual(const PairBoxSides& sides, const PairLimits& limits, con
 /// Where in the box all residuals, straight about this place, are within the tolerance: of two rows a parallelogram, if
 /// it is all in the box.
 Polygon set_about(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows,
-                  const RollPoint& on_a, const RollPoint& on_b) {
+                  const CurvePoint& on_a, const CurvePoint& on_b) {
   const auto f = [&](std::size_t row) { return residual(sides, limits, on_a, on_b, row); };
   const auto slope = [&](std::size_t row) { return Vec2(on_a.slope(row), -on_b.slope(row)); };
   const Vec2 at(on_a.x, on_b.x);
@@ -159,7 +159,8 @@ Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const s
 
 }  // namespace
 
-BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings)
+BoxSearch::BoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget,
+                     PairFindings& findings)
     : a_(a), b_(b), limits_(limits), budget_(budget), findings_(findings) {}
 
 void BoxSearch::run() {
@@ -182,8 +183,8 @@ void BoxSearch::decide(const Box& box) {
   const double tolerance = limits.tolerance;
   bool one_lap = true;
   double lap = 0;
-  const RollCurve::Component* on_a = a_.components(box.a);
-  const RollCurve::Component* on_b = b_.components(box.b);
+  const PlaneCurve::Component* on_a = a_.components(box.a);
+  const PlaneCurve::Component* on_b = b_.components(box.b);
   for (std::size_t row = 0; row < a_.rows(); ++row) {
     const Range f = on_a[row].value - on_b[row].value;
     if (limits_.facing && row + 1 == a_.rows()) {
@@ -243,8 +244,8 @@ void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairL
 
 /// The side that f varies more along; one that can't be halved any more is left alone.
 bool BoxSearch::a_is_wider(const Box& box) const {
-  const RollCurve::Node& a = a_.node(box.a);
-  const RollCurve::Node& b = b_.node(box.b);
+  const PlaneCurve::Node& a = a_.node(box.a);
+  const PlaneCurve::Node& b = b_.node(box.b);
   if (a.on_one_piece() != b.on_one_piece()) return b.on_one_piece();
   double spread_a = 0;
   double spread_b = 0;
@@ -327,13 +328,13 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   const double bend = turn * std::min(1.0, (reach.array() / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
   Vec2 at = about_crossing(sides, limits_, regular.rows);
-  RollPoint on_a;
-  RollPoint on_b;
+  CurvePoint on_a;
+  CurvePoint on_b;
   Eigen::Matrix2d jacobian;
   double last = std::numeric_limits<double>::infinity();  // step, in parts of the box
   for (int round = 0;; ++round) {
-    sides.a.move(on_a, at.x());
-    sides.b.move(on_b, at.y());
+    on_a = sides.a.point(at.x());
+    on_b = sides.b.point(at.y());
     const Vec2 f(residual(sides, limits_, on_a, on_b, p), residual(sides, limits_, on_a, on_b, q));
     const Vec2 middle_step = regular.inverse * f;
     const Eigen::Array2d near = (at - middle_step).array();
@@ -419,8 +420,8 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
 bool BoxSearch::corners_vanish(const PairBoxSides& sides) const {
   std::array<bool, 4> zero{true, true, true, true};
   for (std::size_t row = 0; row < a_.rows(); ++row) {
-    const RollCurve::Component& of_a = sides.a.component(row);
-    const RollCurve::Component& of_b = sides.b.component(row);
+    const PlaneCurve::Component& of_a = sides.a.component(row);
+    const PlaneCurve::Component& of_b = sides.b.component(row);
     const double shift = sides.shift(row, limits_);
     const auto vanishes = [&](double a, double b) { return std::abs(a - b - shift) <= kRootTurn; };
     zero[0] = zero[0] && vanishes(of_a.first, of_b.first);

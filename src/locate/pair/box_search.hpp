@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pair_find.hpp"
+#include "plane_curve.hpp"
 #include "range.hpp"
-#include "roll_curve.hpp"
 
 namespace rollfix::locating {
 
@@ -38,59 +38,53 @@ class Cubic {
   double cube_;
 };
 
-/// A stretch of one finger's curve on one piece: a side of a box.
+/// A stretch of a curve on one piece: a side of a box.
 class BoxSide {
  public:
-  BoxSide(const RollCurve& curve, std::int32_t node)
+  BoxSide(const PlaneCurve& curve, std::int32_t node)
       : curve_(&curve),
         components_(curve.components(node)),
         node_(node),
         lo_(curve.node(node).lo),
-        hi_(curve.node(node).hi) {}
+        hi_(curve.node(node).hi),
+        pivot_at_(curve.pivot_at(curve.node(node))) {}
 
-  const RollPiece& piece() const { return curve_->piece(curve_->node(node_)); }
-  RollPoint first() const { return curve_->first(curve_->node(node_)); }
-  RollPoint last() const { return curve_->last(curve_->node(node_)); }
-  const RollCurve::Component& component(std::size_t row) const { return components_[row]; }
+  const PlaneCurve::Component& component(std::size_t row) const { return components_[row]; }
   /// Through its values and slopes at the ends: nearly the component itself.
   Cubic cubic(std::size_t row) const {
-    const auto [first, last] = curve_->end_slopes(curve_->node(node_), row);
-    return {component(row).first, component(row).last, width() * first, width() * last};
+    const PlaneCurve::Component& of = component(row);
+    return {of.first, of.last, width() * of.first_slope, width() * of.last_slope};
   }
   double lo() const { return lo_; }
   double hi() const { return hi_; }
   double width() const { return hi_ - lo_; }
   double middle() const { return 0.5 * (lo_ + hi_); }
-  bool pivots() const { return piece().pivot_at.has_value(); }
-  double s(double x) const { return piece().s(x); }
+  bool pivots() const { return pivot_at_.has_value(); }
+  double s(double x) const { return pivot_at_ ? *pivot_at_ : x; }
   std::size_t rows() const { return curve_->rows(); }
   const Range& value(std::size_t row) const { return components_[row].value; }
   const Range& slope(std::size_t row) const { return components_[row].slope; }
   /// Lines, arcs and pivots: no rate changes.
   bool is_straight() const {
     return std::all_of(components_, components_ + rows(),
-                       [](const RollCurve::Component& of) { return of.slope.spread() == 0; });
+                       [](const PlaneCurve::Component& of) { return of.slope.spread() == 0; });
   }
-  Range slope_between(const RollPoint& one, const RollPoint& two, std::size_t row) const {
-    return curve_->slope_between(piece(), one, two, row);
+  Range slope_between(const CurvePoint& one, const CurvePoint& two, std::size_t row) const {
+    return curve_->slope_between(curve_->node(node_), one, two, row);
   }
   /// The curve, continued beyond this side's ends by its tangents there: slopes keep this side's bounds.
-  RollPoint point(double x) const {
-    RollPoint point;
-    move(point, x);
-    return point;
-  }
-  RollCurve::Place place(double x, std::size_t row) const { return curve_->place(curve_->node(node_), x, row); }
-  void move(RollPoint& point, double x) const { curve_->move(point, curve_->node(node_), x); }
+  CurvePoint point(double x) const { return curve_->point(curve_->node(node_), x); }
+  PlaneCurve::Place place(double x, std::size_t row) const { return curve_->place(curve_->node(node_), x, row); }
   /// Places closer together than this are one: a share of the perimeter, or of a radian where the finger pivots.
   double same_place(const PairLimits& limits) const { return pivots() ? kLengthAccuracy : limits.same_place; }
 
  private:
-  const RollCurve* curve_;
-  const RollCurve::Component* components_;  // good until a node is halved
+  const PlaneCurve* curve_;
+  const PlaneCurve::Component* components_;  // good until a node is halved
   std::int32_t node_;
   double lo_;
   double hi_;
+  std::optional<double> pivot_at_;
 };
 
 /// Two sides and the equations f = A(s) - B(t) - shift = 0 between them.
@@ -125,8 +119,8 @@ class LineSearch {
  private:
   /// A place on the line.
   struct Place {
-    RollPoint free;   // of the contact that the line is told by
-    RollPoint bound;  // of the other one: the guide is 0
+    CurvePoint free;   // of the contact that the line is told by
+    CurvePoint bound;  // of the other one: the guide is 0
   };
   struct Stretch {
     Place lo;
@@ -197,7 +191,7 @@ class LineSearch {
 /// is halved.
 class BoxSearch {
  public:
-  BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
+  BoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
 
   void run();
 
@@ -231,8 +225,8 @@ class BoxSearch {
   void halve(const Box& box, bool side_a);
   bool a_is_wider(const Box& box) const;
 
-  RollCurve& a_;
-  RollCurve& b_;
+  PlaneCurve& a_;
+  PlaneCurve& b_;
   PairLimits limits_;
   std::size_t& budget_;
   PairFindings& findings_;

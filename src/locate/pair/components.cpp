@@ -34,16 +34,21 @@ class Joiner {
     std::vector<bool> seen(pieces_.size(), false);
     shift_of_.assign(pieces_.size(), {0, 0});
     sort_roots();
+    std::vector<std::vector<std::size_t>> members;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      if (!seen[k]) clusters.push_back(cluster_of(k, seen));
+      if (!seen[k]) clusters.push_back(cluster_of(k, seen, members.emplace_back()));
+    }
+    // The box about a line may hold what is not near it, and what is another set's.
+    for (const bool near_lines : {true, false}) {
+      if (not_taken(0) == roots_.size()) break;
+      for (std::size_t k = 0; k < clusters.size(); ++k) hand_out_roots(members[k], near_lines, clusters[k]);
     }
     return clusters;
   }
 
  private:
-  PairCluster cluster_of(std::size_t first, std::vector<bool>& seen) {
+  PairCluster cluster_of(std::size_t first, std::vector<bool>& seen, std::vector<std::size_t>& members) {
     PairCluster cluster;
-    std::vector<std::size_t> members;
     std::vector<std::size_t> waiting{first};
     seen[first] = true;
     cluster.extent = pieces_[first].box;
@@ -73,7 +78,6 @@ class Joiner {
         cluster.extent[k] = {0, boundary_.perimeter};
       }
     }
-    hand_out_roots(members, cluster);
     if (cluster.exact) {
       cluster.first = first_exact(members, cluster);
       FamilyLine line = line_through_family(pieces_, links_, members, boundary_.perimeter);
@@ -139,8 +143,8 @@ class Joiner {
     return found;
   }
 
-  /// A root is the first piece's that holds it.
-  void hand_out_roots(const std::vector<std::size_t>& members, PairCluster& cluster) {
+  /// A root is the first piece's that holds it; with `near_lines`, of one with a line, that is near that.
+  void hand_out_roots(const std::vector<std::size_t>& members, bool near_lines, PairCluster& cluster) {
     std::vector<std::pair<std::size_t, PairPoint>> found;
     for (const std::size_t k : members) {
       const PairBox box = widened(pieces_[k].box, same_place_);
@@ -151,6 +155,7 @@ class Joiner {
       for (; next < root_order_.size() && roots_at_[root_order_[next]].lo <= reach.hi; next = not_taken(next + 1)) {
         const std::size_t root = root_order_[next];
         if (!holds(box, roots_[root].at)) continue;
+        if (near_lines && !is_near_line(pieces_[k], roots_[root].at)) continue;
         not_taken_[next] = next + 1;
         found.emplace_back(root, moved(roots_[root].at, shift_of_[k]));
       }
@@ -160,6 +165,12 @@ class Joiner {
       cluster.roots.push_back(roots_[root]);
       cluster.roots.back().at = at;
     }
+  }
+
+  bool is_near_line(const PairPiece& piece, const PairPoint& at) const {
+    if (piece.line.empty()) return true;
+    const double reach = piece.error + same_place_ + kJointWidth * boundary_.perimeter;
+    return line_meets(piece.line, {0, 0}, {Interval{at[0], at[0]}, Interval{at[1], at[1]}}, reach);
   }
 
   const std::vector<PairPiece>& pieces_;

@@ -56,6 +56,9 @@ struct FamilyLine {
 FamilyLine line_through_family(const std::vector<PairPiece>& pieces, const std::vector<std::vector<PieceLink>>& links,
                                const std::vector<std::size_t>& members, double period);
 
+/// Does a line, moved by `shift`, come as near as `slack` to a box?
+bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const PairBox& box, double slack);
+
 /// Of each piece those that it touches, across s = 0 and t = 0 on a closed outline; exact ones first, so that a walk
 /// along a family leaves it only where it must. Elsewhere it is enough that what hangs together does so by some links.
 /// `same_place`: pieces that come as near as this are one.

@@ -39,8 +39,8 @@ bool LineSearch::may_overlap() {
 /// Is another equation surely off at a place of the line in the box? About in the middle, where two points and the
 /// slopes' bounds nearly always tell that curves do not run along each other.
 bool LineSearch::is_apart_midway() const {
-  const RollCurve::Component& of_free = free().component(guide_);
-  const RollCurve::Component& of_bound = bound().component(guide_);
+  const PlaneCurve::Component& of_free = free().component(guide_);
+  const PlaneCurve::Component& of_bound = bound().component(guide_);
   const double shift = (free_is_a_ ? 1 : -1) * sides_.shift(guide_, limits_);
   const double rise = of_free.last - of_free.first;
   const auto reached = [&](double value) {  // along the chord, in the box
@@ -49,16 +49,16 @@ bool LineSearch::is_apart_midway() const {
   const double share = 0.5 * (reached(of_bound.first) + reached(of_bound.last));
   const double level = of_free.first + share * rise - shift;
   const double across = std::clamp((level - of_bound.first) / (of_bound.last - of_bound.first), 0.0, 1.0);
-  const RollPoint on_free = free().point(free().lo() + share * free().width());
-  const RollPoint on_bound = bound().point(bound().lo() + across * bound().width());
-  const double off = on_free.value[guide_] - on_bound.value[guide_] - shift;
+  const CurvePoint on_free = free().point(free().lo() + share * free().width());
+  const CurvePoint on_bound = bound().point(bound().lo() + across * bound().width());
+  const double off = on_free.value(guide_) - on_bound.value(guide_) - shift;
   const Range way = Range{off, off} / bound().slope(guide_);  // of the bound contact to where the guide is 0
   if (on_bound.x + way.least < bound().lo() || on_bound.x + way.most > bound().hi()) return false;
   const double rounding = residual_rounding({on_free, on_bound});
   for (std::size_t row = 0; row < free().rows(); ++row) {
     if (row == guide_) continue;
     const double turns = (free_is_a_ ? 1 : -1) * sides_.shift(row, limits_);
-    const double residual = on_free.value[row] - on_bound.value[row] - turns;
+    const double residual = on_free.value(row) - on_bound.value(row) - turns;
     const Range there = Range{residual, residual} - way * bound().slope(row);
     if (there.least > rounding || there.most < -rounding) return true;
   }
@@ -76,8 +76,8 @@ bool LineSearch::vanishes(const Place& place) const {
 /// What a residual that is 0 may be off.
 double LineSearch::residual_rounding(const Place& place) const {
   double rates = 0;
-  for (const double rate : place.free.rate) rates += std::abs(rate);
-  for (const double rate : place.bound.rate) rates += std::abs(rate);
+  for (const double rate : place.free.all_rates()) rates += std::abs(rate);
+  for (const double rate : place.bound.all_rates()) rates += std::abs(rate);
   return 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates;
 }
 
@@ -113,8 +113,8 @@ bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) con
 
 bool LineSearch::slopes_vanish(const Place& at) const {
   double scale = 1 / limits_.perimeter;
-  for (const double rate : at.free.rate) scale += std::abs(rate);
-  for (const double rate : at.bound.rate) scale += std::abs(rate * direction(at));
+  for (const double rate : at.free.all_rates()) scale += std::abs(rate);
+  for (const double rate : at.bound.all_rates()) scale += std::abs(rate * direction(at));
   for (std::size_t row = 0; row < free().rows(); ++row) {
     if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
   }

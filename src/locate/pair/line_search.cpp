@@ -40,19 +40,19 @@ constexpr double kLastSideStep = 1e-10;
 
 /// Where one component of a side, monotone, has this value.
 double solve_side(const BoxSide& side, std::size_t row, double target) {
-  const RollCurve::Component& component = side.component(row);
+  const PlaneCurve::Component& component = side.component(row);
   const double rise = component.last - component.first;
   double lo = side.lo();
   double hi = side.hi();
   const double share = rise == 0 ? 0.5 : (target - component.first) / rise;
   if (share <= 0 || share >= 1) {  // beyond an end the continuation is straight
-    const RollPoint end = share <= 0 ? side.first() : side.last();
-    return end.x + (target - end.value[row]) / end.slope(row);
+    return share <= 0 ? lo + (target - component.first) / component.first_slope
+                      : hi + (target - component.last) / component.last_slope;
   }
   double x = lo + share * (hi - lo);
   const bool rises = rise > 0;
   for (int round = 0; round < kMostLineRounds; ++round) {
-    const RollCurve::Place at = side.place(x, row);
+    const PlaneCurve::Place at = side.place(x, row);
     const double off = at.value - target;
     if (off == 0) break;
     ((off > 0) == rises ? hi : lo) = x;
@@ -110,9 +110,9 @@ bool LineSearch::choose_guide() {
 }
 
 LineSearch::Place LineSearch::place(double x) const {
-  Place place{free().point(x), {}};
-  bound().move(place.bound, bound_at(place.free.value[guide_]));
-  return place;
+  CurvePoint free = this->free().point(x);
+  const double y = bound_at(free.value(guide_));
+  return {std::move(free), bound().point(y)};
 }
 
 /// Where the other contact is while the guide's component of the free one has this value.
@@ -122,7 +122,7 @@ double LineSearch::bound_at(double value) const {
 }
 
 double LineSearch::residual(const Place& place, std::size_t row) const {
-  const double difference = place.free.value[row] - place.bound.value[row];
+  const double difference = place.free.value(row) - place.bound.value(row);
   return (free_is_a_ ? difference : -difference) - sides_.shift(row, limits_);
 }
 
@@ -138,8 +138,8 @@ LineSearch::Bounds LineSearch::bounds(const Stretch& stretch) const {
   Bounds bounds;
   const Range guide_free = free().slope_between(stretch.lo.free, stretch.hi.free, guide_);
   const Range ends = hull(stretch.lo.bound.x, stretch.hi.bound.x);
-  RollPoint bound_lo = stretch.lo.bound;
-  RollPoint bound_hi = stretch.hi.bound;
+  CurvePoint bound_lo = stretch.lo.bound;
+  CurvePoint bound_hi = stretch.hi.bound;
   bounds.bound_x = ends;
   if (!guide_free.keeps_sign()) {  // the line may swing out beyond its ends
     bounds.bound_x = value_range(stretch.lo.bound.x, stretch.hi.bound.x, guide_free / bound().slope(guide_), width);
@@ -328,8 +328,8 @@ void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std:
       exact = exact && std::abs(residual(root, other)) <= kRootTurn;
     }
     // det J by rows (guide, row), turned so that it has the same sign whatever guides.
-    const RollPoint& a = free_is_a_ ? root.free : root.bound;
-    const RollPoint& b = free_is_a_ ? root.bound : root.free;
+    const CurvePoint& a = free_is_a_ ? root.free : root.bound;
+    const CurvePoint& b = free_is_a_ ? root.bound : root.free;
     const std::size_t p = std::min(guide_, row);
     const std::size_t q = std::max(guide_, row);
     const double determinant = a.slope(q) * b.slope(p) - a.slope(p) * b.slope(q);
@@ -365,8 +365,8 @@ bool LineSearch::passes_by(const Place& lo, const Place& hi, const Range& y) con
   const double most = std::min(y.most + margin_, bound().hi());
   if (most < least) return false;
   const double width = hi.free.x - lo.free.x;
-  const RollPoint bound_lo = bound().point(least);
-  const RollPoint bound_hi = bound().point(most);
+  const CurvePoint bound_lo = bound().point(least);
+  const CurvePoint bound_hi = bound().point(most);
   const double bend = kStraightShare * limits_.tolerance;
   Polygon left{{lo.free.x, least}, {hi.free.x, least}, {hi.free.x, most}, {lo.free.x, most}};
   for (std::size_t row = 0; row < free().rows(); ++row) {

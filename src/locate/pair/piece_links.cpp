@@ -47,13 +47,6 @@ bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, d
   return lo <= hi;
 }
 
-bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const PairBox& box, double slack) {
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    if (segment_meets(moved(line[k], shift), moved(line[k + 1], shift), box, slack)) return true;
-  }
-  return false;
-}
-
 using Corners = boost::container::small_vector<PairPoint, 8>;
 
 Corners polygon_of(const PairPiece& piece, const Shift& shift) {
@@ -365,6 +358,13 @@ class Linker {
 };
 
 }  // namespace
+
+bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const PairBox& box, double slack) {
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    if (segment_meets(moved(line[k], shift), moved(line[k + 1], shift), box, slack)) return true;
+  }
+  return false;
+}
 
 std::vector<std::vector<PieceLink>> links_of(const std::vector<PairPiece>& pieces, const Boundary& boundary,
                                              double same_place) {

@@ -33,13 +33,13 @@ constexpr std::size_t kFewCuts = 6;
 }  // namespace
 
 RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& range)
-    : part_(part),
+    : PlaneCurve(equations.rows()),
+      part_(part),
       turning_(part.turning()),
       equations_(std::move(equations)),
       strips_(part, equations_, range),
-      rows_(equations_.rows()),
       contacts_(equations_.contacts()) {
-  root_ = strips_.is_empty() ? cut(range) : make_uncut(range, strips_.whole().data());
+  set_root(strips_.is_empty() ? cut(range) : make_uncut(range, strips_.whole().data()));
 }
 
 // What is called for every place is inline.
@@ -54,7 +54,7 @@ inline RollCurve::Contact RollCurve::contact_at(const RollPiece& piece, double x
 }
 
 inline RollCurve::Contact RollCurve::contact_on_spiral(const RollPiece& piece, double x, std::size_t c) const {
-  if (piece.pivot_at) return pivot_at(piece, x, c);
+  if (piece.pivot_at) return pivoted(piece, x, c);
   const Spiral& spiral = turning_.spirals()[piece.spiral[c]];
   const auto is_at = [&](double end) {
     return std::abs(x + piece.offset[c] - end) <= kEndRounding * turning_.perimeter();
@@ -68,8 +68,8 @@ inline RollCurve::Contact RollCurve::contact_on_spiral(const RollPiece& piece, d
 }
 
 inline RollCurve::Contact RollCurve::contact_between(const Node& node, double x, std::size_t c) const {
-  const RollPiece& piece = this->piece(node);
-  if (piece.pivot_at) return pivot_at(piece, x, c);
+  const RollPiece& piece = pieces_[node.piece];
+  if (piece.pivot_at) return pivoted(piece, x, c);
   return contact_at(piece, x, c, panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c]);
 }
 
@@ -77,11 +77,10 @@ inline RollCurve::Contact RollCurve::contact_between(const Node& node, double x,
 std::int32_t RollCurve::cut(const Interval& range) {
   const std::size_t before = pieces_.size();
   make_pieces(range);
-  const auto first_node = static_cast<std::int32_t>(nodes_.size());
+  const auto first_node = static_cast<std::int32_t>(count());
   if (before == 0) {
     const std::size_t room = kRoomOfPiece * pieces_.size() + kRoomAtFirst;
-    nodes_.reserve(room);
-    components_.reserve(room * rows_);
+    reserve(room);
     make_room(room);
   }
   boost::container::small_vector<Contact, 4> at(contacts_);
@@ -100,7 +99,7 @@ std::int32_t RollCurve::cut(const Interval& range) {
     make_node(static_cast<std::uint32_t>(k), piece.lo, piece.hi, first, last);
   }
   if (pieces_.size() == before) return -1;
-  return join(first_node, static_cast<std::int32_t>(nodes_.size()));
+  return join(first_node, static_cast<std::int32_t>(count()));
 }
 
 std::int32_t RollCurve::make_uncut(const Interval& s, const RollStrips::Span* spans) {
@@ -109,18 +108,32 @@ std::int32_t RollCurve::make_uncut(const Interval& s, const RollStrips::Span* sp
   node.hi = s.hi;
   node.first = static_cast<std::uint32_t>(spans_.size());
   spans_.insert(spans_.end(), spans, spans + contacts_);
-  boost::container::small_vector<Range, 4> values(rows_);
+  boost::container::small_vector<Range, 4> values(rows());
   strips_.bound(s, &spans_[node.first], values.data());
-  for (const Range& value : values) components_.emplace_back().value = value;
-  if (rows_ > 1) node.diagonals = {values[0] + values[1], values[0] - values[1]};
-  nodes_.push_back(node);
-  return static_cast<std::int32_t>(nodes_.size() - 1);
+  return make_bounded(node, values.data());
+}
+
+void RollCurve::divide(std::int32_t index) {
+  if (node(index).on_one_piece()) {
+    divide_on_piece(index);
+  } else {
+    divide_uncut(index);
+  }
+}
+
+void RollCurve::divide_on_piece(std::int32_t index) {
+  const Node node = this->node(index);
+  const double x = 0.5 * (node.lo + node.hi);
+  const std::uint32_t middle = add_point([&](std::size_t c) { return contact_between(node, x, c); });
+  const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
+  const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
+  adopt(index, left, right);
 }
 
 /// Gives an uncut node its children: pieces where they are few.
-void RollCurve::divide(std::size_t index) {
-  const Interval s{nodes_[index].lo, nodes_[index].hi};
-  const RollStrips::Span* spans = &spans_[nodes_[index].first];
+void RollCurve::divide_uncut(std::int32_t index) {
+  const Interval s{node(index).lo, node(index).hi};
+  const RollStrips::Span* spans = &spans_[node(index).first];
   boost::container::small_vector<RollStrips::Span, 8> halves(2 * contacts_);
   const bool few = strips_.cuts(spans) <= kFewCuts;
   const double middle = few ? s.lo : strips_.halve(spans, halves.data(), halves.data() + contacts_);
@@ -137,38 +150,7 @@ void RollCurve::divide(std::size_t index) {
       right = joined.right;
     }
   }
-  adopt(static_cast<std::int32_t>(index), left, right);
-}
-
-/// Gives a node its halves, whose bounds leave less than its own and its parents' did.
-void RollCurve::adopt(std::int32_t index, std::int32_t left, std::int32_t right) {
-  nodes_[static_cast<std::size_t>(index)].left = left;
-  nodes_[static_cast<std::size_t>(index)].right = right;
-  for (const std::int32_t half : {left, right}) {
-    if (half >= 0) nodes_[static_cast<std::size_t>(half)].parent = index;
-  }
-  while (index >= 0 && tighten(index)) index = node(index).parent;
-}
-
-/// Bounds on both halves are bounds on the whole. False: they leave no less.
-bool RollCurve::tighten(std::int32_t index) {
-  Node& node = nodes_[static_cast<std::size_t>(index)];
-  if (node.left < 0 || node.right < 0) return false;
-  const Node& left = this->node(node.left);
-  const Node& right = this->node(node.right);
-  bool tighter = false;
-  const auto take = [&](Range& whole, const Range& one, const Range& other) {
-    const Range both = hull(one, other);
-    if (!(both.least > whole.least || both.most < whole.most)) return;
-    whole = common(whole, both);
-    tighter = true;
-  };
-  Component* of = &components_[static_cast<std::size_t>(index) * rows_];
-  for (std::size_t row = 0; row < rows_; ++row) {
-    take(of[row].value, components(node.left)[row].value, components(node.right)[row].value);
-  }
-  for (const std::size_t k : {0U, 1U}) take(node.diagonals[k], left.diagonals[k], right.diagonals[k]);
-  return tighter;
+  adopt(index, left, right);
 }
 
 /// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
@@ -258,7 +240,7 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
 /// Bounds on the two rates of a component never see that they are the same: a whole lap, a symmetric part. Where the
 /// slope vanishes at more points than the turning function's polynomials have terms it vanishes in between.
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
-  piece.constant.assign(rows_, true);
+  piece.constant.assign(rows(), true);
   boost::container::small_vector<double, 4> rate(contacts_);
   const int samples = piece.pivot_at ? 0 : kConstantSamples;  // where it pivots all rates are the same all along
   for (int k = 0; k <= samples; ++k) {
@@ -270,8 +252,8 @@ void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint3
     double scale = 1 / turning_.perimeter();
     for (std::size_t c = 0; c < contacts_; ++c) scale += std::abs(rates[c]);
     bool any = false;
-    for (std::size_t row = 0; row < rows_; ++row) {
-      const double slope = row + 1 < contacts_ ? rates[row + 1] - rates[0] : rates[0];
+    for (std::size_t row = 0; row < rows(); ++row) {
+      const double slope = slope_of(rates, row);
       if (std::abs(slope) > kNoSlope * scale) piece.constant[row] = false;
       any = any || piece.constant[row];
     }
@@ -288,7 +270,7 @@ void RollCurve::evaluate(const ContactOf& contact_of, double* value, double* rat
     rate[c] = end.curvature;
     value[c - 1] = end.angle - start.angle + equations_.shifts[c - 1];  // one side of (8), (9)
   }
-  if (equations_.facing) value[rows_ - 1] = start.angle + *equations_.facing;
+  if (equations_.facing) value[rows() - 1] = start.angle + *equations_.facing;
 }
 
 RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) const {
@@ -298,30 +280,18 @@ RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) c
   return {end.angle - start.angle + equations_.shifts[row], end.curvature - start.curvature};
 }
 
-void RollCurve::move(RollPoint& point, const Node& node, double x) const {
-  point.x = x;
-  point.value.resize(rows_, boost::container::default_init);
-  point.rate.resize(contacts_, boost::container::default_init);
+CurvePoint RollCurve::point(const Node& node, double x) const {
   const double nearest = std::clamp(x, node.lo, node.hi);
-  const auto contact_of = [&](std::size_t c) { return contact_between(node, nearest, c).turning; };
-  evaluate(contact_of, point.value.data(), point.rate.data());
-  if (x != nearest) {
-    for (std::size_t row = 0; row < rows_; ++row) point.value[row] += (x - nearest) * point.slope(row);
-  }
-}
-
-RollPoint RollCurve::stored(std::uint32_t index, double x) const {
-  RollPoint point;
+  CurvePoint point(nearest, rows(), contacts_);
+  evaluate([&](std::size_t c) { return contact_between(node, nearest, c).turning; }, point.values(), point.rates());
+  for (std::size_t row = 0; row < rows(); ++row) point.slopes()[row] = slope_of(point.rates(), row);
+  if (x != nearest) point.step(x - nearest);
   point.x = x;
-  const double* value = &values_[index * rows_];
-  const double* rate = &rates_[index * contacts_];
-  point.value.assign(value, value + rows_);
-  point.rate.assign(rate, rate + contacts_);
   return point;
 }
 
 void RollCurve::make_room(std::size_t points) {
-  values_.resize(points * rows_, boost::container::default_init);
+  values_.resize(points * rows(), boost::container::default_init);
   rates_.resize(points * contacts_, boost::container::default_init);
   panels_.resize(points * contacts_, boost::container::default_init);
 }
@@ -336,7 +306,7 @@ std::uint32_t RollCurve::add_point(const ContactOf& contact_of) {
     panels[c] = contact.panel;
     return contact.turning;
   };
-  evaluate(keep_panel, &values_[index * rows_], &rates_[index * contacts_]);
+  evaluate(keep_panel, &values_[index * rows()], &rates_[index * contacts_]);
   return static_cast<std::uint32_t>(index);
 }
 
@@ -345,73 +315,32 @@ inline RollCurve::Component RollCurve::component_between(const RollPiece& piece,
   const double* rates_first = &rates_[first * contacts_];
   const double* rates_last = &rates_[last * contacts_];
   Component component;
-  component.first = values_[first * rows_ + row];
-  component.last = values_[last * rows_ + row];
+  component.first = values_[first * rows() + row];
+  component.last = values_[last * rows() + row];
+  component.first_slope = slope_of(rates_first, row);
+  component.last_slope = slope_of(rates_last, row);
   component.value = hull(component.first, component.last);
   if (piece.constant[row]) return component;
-  component.slope = slope_between(piece, rates_first, rates_last, row);
+  component.slope = slopes_of(piece, rates_first, rates_last, row);
   const double of_start = 0.5 * (rates_last[0] - rates_first[0]);
-  component.by_start = is_facing(row) ? of_start : -of_start;
-  if (!is_facing(row)) component.by_end = 0.5 * (rates_last[row + 1] - rates_first[row + 1]);
+  component.shared = is_facing(row) ? of_start : -of_start;
+  if (!is_facing(row)) component.own = hull(0, 0.5 * (rates_last[row + 1] - rates_first[row + 1]));
   if (component.slope.keeps_sign()) return component;
-  const Range bend = 0.5 * width * (hull(0, component.by_start) + hull(0, component.by_end));
+  const Range bend = 0.5 * width * (hull(0, component.shared) + component.own);
   component.value =
       common(value_range(component.first, component.last, component.slope, width), component.value - bend);
   return component;
 }
 
 std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last) {
-  Node& node = nodes_.emplace_back();
+  Node node;
   node.lo = lo;
   node.hi = hi;
   node.piece = piece;
   node.first = first;
   node.last = last;
-  for (std::size_t row = 0; row < rows_; ++row) {
-    components_.push_back(component_between(pieces_[piece], row, first, last, hi - lo));
-  }
-  if (rows_ > 1) {
-    const Component& one = components_[components_.size() - rows_];
-    const Component& two = components_[components_.size() - rows_ + 1];
-    node.diagonals = {common(Combination{1, 1, one, two}.value(hi - lo), one.value + two.value),
-                      common(Combination{1, -1, one, two}.value(hi - lo), one.value - two.value)};
-  }
-  return static_cast<std::int32_t>(nodes_.size() - 1);
-}
-
-/// A node over these of pieces, the last one not included.
-std::int32_t RollCurve::join(std::int32_t from, std::int32_t to) {
-  if (to - from == 1) return from;
-  const std::int32_t middle = from + (to - from) / 2;
-  Node node;
-  node.left = join(from, middle);
-  node.right = join(middle, to);
-  const Node& first = this->node(node.left);  // good until the next one is made
-  const Node& last = this->node(node.right);
-  node.lo = first.on_one_piece() ? piece(first).s(first.lo) : first.lo;
-  node.hi = last.on_one_piece() ? piece(last).s(last.hi) : last.hi;
-  for (std::size_t row = 0; row < rows_; ++row) {
-    Component component;
-    component.value = hull(components(node.left)[row].value, components(node.right)[row].value);
-    components_.push_back(component);
-  }
-  for (const std::size_t k : {0U, 1U}) node.diagonals[k] = hull(first.diagonals[k], last.diagonals[k]);
-  nodes_.push_back(node);
-  const auto index = static_cast<std::int32_t>(nodes_.size() - 1);
-  for (const std::int32_t half : {node.left, node.right}) nodes_[static_cast<std::size_t>(half)].parent = index;
-  return index;
-}
-
-std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
-  if (!node(index).on_one_piece() && node(index).left < 0) divide(static_cast<std::size_t>(index));
-  const Node node = this->node(index);
-  if (node.left >= 0 || !node.on_one_piece()) return {node.left, node.right};
-  const double x = 0.5 * (node.lo + node.hi);
-  const std::uint32_t middle = add_point([&](std::size_t c) { return contact_between(node, x, c); });
-  const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
-  const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
-  adopt(index, left, right);
-  return {left, right};
+  return make_on_piece(node,
+                       [&](std::size_t row) { return component_between(pieces_[piece], row, first, last, hi - lo); });
 }
 
 }  // namespace rollfix::locating

@@ -1,0 +1,185 @@
+#pragma once
+
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "range.hpp"
+
+namespace rollfix::locating {
+
+/// A place on such a curve: of each component its value and its slope by x, and what rates the terms have that
+/// components are made of.
+class CurvePoint {
+ public:
+  CurvePoint() = default;
+  CurvePoint(double at, std::size_t rows, std::size_t rates) : x(at), rows_(rows) {
+    numbers_.resize(2 * rows + rates, boost::container::default_init);
+  }
+
+  double x = 0;
+
+  double value(std::size_t row) const { return numbers_[row]; }
+  double slope(std::size_t row) const { return numbers_[rows_ + row]; }
+  std::span<const double> all_rates() const { return {numbers_.data() + 2 * rows_, numbers_.size() - 2 * rows_}; }
+
+  /// To be filled in: one of each row, and the rates.
+  double* values() { return numbers_.data(); }
+  double* slopes() { return numbers_.data() + rows_; }
+  double* rates() { return numbers_.data() + 2 * rows_; }
+
+  /// A step along the tangents.
+  void step(double by) {
+    x += by;
+    for (std::size_t row = 0; row < rows_; ++row) numbers_[row] += by * slope(row);
+  }
+
+ private:
+  std::size_t rows_ = 0;
+  boost::container::small_vector<double, 9> numbers_;
+};
+
+/// One side of equations that are each a function of s less a function of t: a curve with a component for each
+/// equation, cut into pieces with a coordinate x each, and a tree of intervals over it with bounds on every component.
+/// x is s, or at a corner an angle, s being a constant. Two of them are what BoxSearch looks for common points of.
+///
+/// Who derives from it makes the tree (`make_on_piece`, `make_bounded`, `join`, `set_root`) and says how a node is
+/// halved, what the components are at x, and what bounds slopes have between two places.
+class PlaneCurve {
+ public:
+  static constexpr std::uint32_t kManyPieces = UINT32_MAX;
+
+  struct Node {
+    double lo = 0;  // of x, on one piece; else of s
+    double hi = 0;
+    std::uint32_t piece = kManyPieces;
+    std::int32_t left = -1;  // children; none yet
+    std::int32_t right = -1;
+    std::int32_t parent = -1;
+    std::uint32_t first = 0;  // for who derives: what is kept of the ends
+    std::uint32_t last = 0;
+    std::array<Range, 2> diagonals;  // of the first two components the sum and the difference
+
+    bool on_one_piece() const { return piece != kManyPieces; }
+    double width() const { return hi - lo; }
+  };
+
+  /// What is known of one component on a node. On one with many pieces its value alone.
+  struct Component {
+    Range value;
+    Range slope;
+    double first = 0;  // its values at the ends
+    double last = 0;
+    double first_slope = 0;  // and its slopes
+    double last_slope = 0;
+    double shared = 0;  // half of what the slope of the term that all components have changes by; it is monotone
+    Range own;          // half of what the other terms' slopes change by, at least and at most
+  };
+
+  /// x times one component and y times another one.
+  struct Combination {
+    double x;
+    double y;
+    const Component& one;
+    const Component& two;
+
+    double first() const { return x * one.first + y * two.first; }
+    double last() const { return x * one.last + y * two.last; }
+    /// How far its slope gets from the middle.
+    double slope_radius() const {
+      return std::abs(shared()) + std::abs(x) * one.own.size() + std::abs(y) * two.own.size();
+    }
+    /// A term whose slope is monotone is on one side of its chord, by a quarter of the slope's change times the width
+    /// at the most.
+    Range value(double width) const {
+      const double half = 0.5 * width;
+      const Range bend = hull(0, shared()) + x * one.own + y * two.own;
+      const Range ends = hull(first(), last());
+      return {ends.least - half * bend.most, ends.most - half * bend.least};
+    }
+
+   private:
+    double shared() const { return x * one.shared + y * two.shared; }
+  };
+
+  PlaneCurve(const PlaneCurve&) = delete;
+  PlaneCurve& operator=(const PlaneCurve&) = delete;
+  virtual ~PlaneCurve() = default;
+
+  std::size_t rows() const { return rows_; }
+  std::int32_t root() const { return root_; }  // -1: no pieces
+  const Node& node(std::int32_t index) const { return nodes_[static_cast<std::size_t>(index)]; }
+  /// One for each row; good until a node is halved.
+  const Component* components(std::int32_t node) const { return &components_[static_cast<std::size_t>(node) * rows_]; }
+
+  /// The two halves of a node; of one with many pieces its two sides. -1 for the other of an only one. Intervals are
+  /// halved when somebody asks for it, once for all the boxes that they are a side of.
+  std::pair<std::int32_t, std::int32_t> halves(std::int32_t index) {
+    if (node(index).left < 0) divide(index);
+    return {node(index).left, node(index).right};
+  }
+
+  /// s of a node at a corner, where x is an angle; else x is s.
+  virtual std::optional<double> pivot_at(const Node& node) const = 0;
+
+  /// At x on a node of one piece, and beyond its ends along its tangents there: the slopes keep the
+  /// bounds that they have inside.
+  virtual CurvePoint point(const Node& node, double x) const = 0;
+
+  /// One component's value and its slope by x, at x on a node of one piece.
+  struct Place {
+    double value = 0;
+    double slope = 0;
+  };
+  virtual Place place(const Node& node, double x, std::size_t row) const = 0;
+
+  /// Bounds on a component's slope between two points of one piece.
+  virtual Range slope_between(const Node& node, const CurvePoint& one, const CurvePoint& two,
+                              std::size_t row) const = 0;
+
+ protected:
+  explicit PlaneCurve(std::size_t rows) : rows_(rows) {}
+
+  std::size_t count() const { return nodes_.size(); }
+  void reserve(std::size_t nodes) {
+    nodes_.reserve(nodes);
+    components_.reserve(nodes * rows_);
+  }
+  void set_root(std::int32_t node) { root_ = node; }
+  /// A node of one piece, with `component_of(row)`.
+  template <class ComponentOf>
+  std::int32_t make_on_piece(Node node, const ComponentOf& component_of) {
+    const std::size_t before = components_.size();
+    for (std::size_t row = 0; row < rows_; ++row) components_.push_back(component_of(row));
+    if (rows_ > 1) bound_diagonals(node, components_[before], components_[before + 1]);
+    nodes_.push_back(node);
+    return static_cast<std::int32_t>(nodes_.size() - 1);
+  }
+  /// A node of which no more is known than where its components are.
+  std::int32_t make_bounded(Node node, const Range* values);
+  /// A node over these, the last one not included.
+  std::int32_t join(std::int32_t from, std::int32_t to);
+  /// Gives a node its halves, whose bounds leave less than its own and its parents' did.
+  void adopt(std::int32_t index, std::int32_t left, std::int32_t right);
+
+ private:
+  /// Gives a node that has none its halves.
+  virtual void divide(std::int32_t index) = 0;
+
+  static void bound_diagonals(Node& node, const Component& one, const Component& two);
+  double end_of(const Node& node, double x) const;
+  bool tighten(std::int32_t index);
+
+  std::size_t rows_;
+  std::vector<Node> nodes_;
+  std::vector<Component> components_;
+  std::int32_t root_ = -1;
+};
+
+}  // namespace rollfix::locating
