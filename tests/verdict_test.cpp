@@ -12,7 +12,7 @@ using rollfix::Verdict;
 Verdict::Name verdict_with(double unresolved, double excess = 1) {
   rollfix::Fit fit;
   fit.excess = excess;
-  return rollfix::belief::verdict_of(fit, {1, 1 - unresolved, 0.01, unresolved}, {1, true}).name;
+  return rollfix::belief::verdict_of(fit, {1, 0.01, unresolved}, {1, true}).name;
 }
 
 }  // namespace

@@ -188,8 +188,9 @@ std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& h
 
 /// Whether the robot can do this roll from every hypothesis that counts.
 bool can_do(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options, const PerFinger<double>& by) {
+  const double least = advising::least_that_counts(hypotheses);
   return std::all_of(hypotheses.begin(), hypotheses.end(), [&](const PartHypothesis& one) {
-    return !advising::counts(one, hypotheses.size()) || options.can_roll(one, by);
+    return one.hypothesis.probability < least || options.can_roll(one, by);
   });
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
 #include "belief/posterior.hpp"
+#include "locate/remaining.hpp"
 #include "rollfix/turning_function.hpp"
 
 // Notation:
@@ -36,8 +38,9 @@ Interval common_travel(const std::vector<PartHypothesis>& hypotheses, const std:
                        std::size_t finger) {
   const double shortest = shortest_perimeter(hypotheses);
   Interval travel = wanted.value_or(Interval{-shortest, shortest});
+  const double least = least_that_counts(hypotheses);
   for (const PartHypothesis& one : hypotheses) {
-    if (!counts(one, hypotheses.size())) continue;
+    if (one.hypothesis.probability < least) continue;
     const double place = one.hypothesis.place[finger];
     if (!one.part->closed()) {
       travel.lo = std::max(travel.lo, -place);
@@ -69,8 +72,9 @@ bool overlap(const PartHypothesis& one, const PerFinger<double>& disks, const Wa
 /// As far as no hypothesis that counts has one disk in the other. Where they overlap from the start it is not known
 /// better.
 void stop_at_overlap(const std::vector<PartHypothesis>& hypotheses, const PerFinger<double>& disks, Way& way) {
+  const double least = least_that_counts(hypotheses);
   for (const PartHypothesis& one : hypotheses) {
-    if (!counts(one, hypotheses.size()) || overlap(one, disks, way, 0)) continue;
+    if (one.hypothesis.probability < least || overlap(one, disks, way, 0)) continue;
     for (double* const end : {&way.travel.lo, &way.travel.hi}) {
       const double whole = *end;
       for (std::size_t k = 1; k <= kLooks; ++k) {
@@ -102,7 +106,13 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Squared: from there on a place is left with less probability, beside the true one, than counts.
 double distance_wanted(double of_true, double of_other) {
-  return 2 * std::log(std::max(of_other / (kHypothesisCounts * of_true), 1 + kHypothesisCounts));
+  return 2 * std::log(std::max(of_other / (kLeastProbability * of_true), 1 + kLeastProbability));
+}
+
+/// What has less probability, of these in any order, does not count.
+double least_of(std::vector<double> probabilities) {
+  std::sort(probabilities.begin(), probabilities.end(), std::greater<>());
+  return rollfix::least_that_counts(probabilities);
 }
 
 /// Finger a's turn counts with this sign, finger b's with the other.
@@ -115,8 +125,10 @@ constexpr double kNotTold = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-bool counts(const PartHypothesis& one, std::size_t hypotheses) {
-  return one.hypothesis.probability >= kHypothesisCounts || hypotheses == 1;
+double least_that_counts(const std::vector<PartHypothesis>& hypotheses) {
+  std::vector<double> each;
+  for (const PartHypothesis& one : hypotheses) each.push_back(one.hypothesis.probability);
+  return least_of(std::move(each));
 }
 
 std::vector<Way> ways_of(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
@@ -244,8 +256,8 @@ ExpectedGain Comparison::expected(double x) const {
       of_label[hypotheses_[j].hypothesis.label] += left[j];
     }
     gain.bits -= prior[i] * entropy(left);
-    const auto counts =
-        std::count_if(of_label.begin(), of_label.end(), [](double p) { return p >= kHypothesisCounts; });
+    const double least = least_of(of_label);
+    const auto counts = std::count_if(of_label.begin(), of_label.end(), [&](double p) { return p >= least; });
     gain.placements += prior[i] * static_cast<double>(counts);
   }
   return gain;
@@ -256,6 +268,9 @@ Travel::Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& 
   const std::size_t n = hypotheses.size();
   others_.resize(n);
   for (const PartHypothesis& one : hypotheses) of_label_[one.hypothesis.label] += one.hypothesis.probability;
+  std::vector<double> each;
+  for (const auto& [label, probability] : of_label_) each.push_back(probability);
+  least_ = least_of(std::move(each));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) add_other(i, j);
   }

@@ -9,9 +9,6 @@
 
 namespace rollfix::advising {
 
-// A hypothesis with less probability is not waited for, nor counted among those that remain.
-inline constexpr double kHypothesisCounts = kLeastProbability;
-
 /// On which the fingers roll on: each by so many times a length, the larger of which is 1, over which all hypotheses
 /// that count can roll.
 struct Way {
@@ -26,8 +23,8 @@ struct Way {
   }
 };
 
-/// Whether a hypothesis is so probable that a roll must be possible from it.
-bool counts(const PartHypothesis& one, std::size_t hypotheses);
+/// What has less probability need not be able to roll.
+double least_that_counts(const std::vector<PartHypothesis>& hypotheses);
 
 /// The ways that one finger has, or two.
 std::vector<Way> ways_of(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options);
@@ -89,7 +86,7 @@ class Travel {
 
   void add_other(std::size_t i, std::size_t j);
   bool are_one_place(std::size_t i, std::size_t j) const;
-  bool counts(std::size_t j) const { return of_label_.at(hypotheses_[j].hypothesis.label) >= kHypothesisCounts; }
+  bool counts(std::size_t j) const { return of_label_.at(hypotheses_[j].hypothesis.label) >= least_; }
   bool is_open_after(std::size_t i, double x) const;
   std::array<double, 2> left_after(std::size_t i, double x) const;
   static double shorter_way(const Other& ends, double rolled);
@@ -98,6 +95,7 @@ class Travel {
   const Comparison& back_;
   const Comparison& forward_;
   std::map<std::size_t, double> of_label_;  // probability
+  double least_ = 0;                        // what has less of it is not waited for
   std::vector<std::vector<Other>> others_;  // of each hypothesis, those that can be told from it
 };
 

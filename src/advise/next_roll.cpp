@@ -118,7 +118,7 @@ std::vector<Hypothesis> with_noise(const Part& part, const std::vector<Remaining
   return hypotheses;
 }
 
-// So many that each counts where all are as probable (kHypothesisCounts, 1 %); of two fingers pairs.
+// So many that each counts where all are as probable (kLeastProbability, 1 %); of two fingers pairs.
 constexpr std::size_t kPlacesBefore = 90;
 constexpr std::size_t kPlacesOfEach = 9;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "belief/posterior.hpp"
+#include "locate/remaining.hpp"
 
 // Lengths that may count either way round: two answers made one.
 // Notation:
@@ -103,9 +104,11 @@ void add_weighing(Weighing& other, Weighing& weighing) {
 /// What is next to impossible because the roll went the other way is not listed.
 void drop_improbable(Answer& answer) {
   Weighing& weighing = *answer.weighing;
-  const auto first = std::stable_partition(
-      answer.placements.begin(), answer.placements.end(),
-      [](const Placement& placement) { return placement.probability >= belief::kLeastProbability; });
+  double likeliest = 0;
+  for (const Placement& placement : answer.placements) likeliest = std::max(likeliest, placement.probability);
+  const auto first =
+      std::stable_partition(answer.placements.begin(), answer.placements.end(),
+                            [&](const Placement& placement) { return is_listed(placement.probability, likeliest); });
   for (auto placement = first; placement != answer.placements.end(); ++placement) {
     weighing.rest += placement->probability;
     weighing.improbable.push_back(*placement);
@@ -121,16 +124,14 @@ Verdict verdict_of(const Answer& both, const Verdict& likelier, const Verdict& o
   const auto verdict_on = [&](const Placement& placement) -> const Verdict& {
     return placement.clockwise == likelier_is_clockwise ? likelier : other;
   };
-  std::size_t count = 0;
+  const std::size_t count = how_many_remain(both.placements, &Placement::probability);
+  if (count == 1) return verdict_on(both.placements.front());
   std::array<bool, 2> counts{};
-  for (const Placement& placement : both.placements) {
-    if (placement.probability < belief::kCounts) continue;
-    ++count;
-    counts.at(placement.clockwise == likelier_is_clockwise ? 0 : 1) = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    counts.at(both.placements[k].clockwise == likelier_is_clockwise ? 0 : 1) = true;
   }
   Verdict verdict = likelier;
   if (!counts[1]) return verdict;
-  if (both.placements.front().probability >= belief::kCertain) return verdict_on(both.placements.front());
   verdict.fits_badly |= other.fits_badly;
   if (likelier.name == Verdict::unobservable || other.name == Verdict::unobservable) {
     verdict.name = Verdict::unobservable;

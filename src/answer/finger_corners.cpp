@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "belief/error_model.hpp"
 #include "locate/corner_sets.hpp"
+#include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "part/turning_range.hpp"
 #include "rollfix/error.hpp"
@@ -90,9 +92,13 @@ class WayBack {
     }
   }
 
-  /// The way back is as uncertain as both rows' contacts, and slips.
+  /// The way back is as uncertain as both rows' contacts, and slips, here and there as well.
   double sd(std::size_t finger) const {
-    return std::hypot(noise_.contact, noise_.contact, noise_.slip * length_[finger]);
+    BeliefOptions options;
+    options.noise = noise_;
+    const belief::SensorErrors sensor(options, LogKind::contact, part_.perimeter());
+    return std::hypot(std::numbers::sqrt2 * noise_.contact, noise_.slip * length_[finger],
+                      std::sqrt(sensor.slipped(length_[finger])));
   }
 
   const Part& part_;
@@ -245,23 +251,25 @@ constexpr double kFarthestLength = 4.5;
 constexpr double kBeyondInterval = kFarthestLength - 2;
 // An interval is looked at in so many pieces, so that what is known of a turn is not lost in how far it is open.
 constexpr std::size_t kPieces = 8;
-// A place with less probability than this is not listed.
-constexpr double kLeastListed = 1e-4;
 
 class RowsOnCorners {
  public:
   RowsOnCorners(const Problem& problem, const LeadingRows& leading, const Observation& observed)
-      : turning_(problem.part.turning()), rows_(leading.readings) {
-    for (std::size_t k = 0; k < observed.on_corners.size(); ++k) {
-      if (observed.on_corners[k]) rows_.push_back(observed.rolls[k]);
-    }
+      : turning_(problem.part.turning()) {
     const Noise noise = noise_on(problem.part, *problem.noise);
-    contact_ = std::numbers::sqrt2 * noise.contact;
+    const auto errors = [&](const std::vector<Reading>& rows) {
+      return errors_of(problem, noise, rows, problem.part.perimeter());
+    };
+    const std::vector<RowErrors> of_leading = errors(leading.readings);
+    for (std::size_t k = 0; k < of_leading.size(); ++k) add(leading.readings[k], of_leading[k]);
+    const std::vector<RowErrors> of_rolls = errors(observed.rolls);
+    for (std::size_t k = 0; k < observed.on_corners.size(); ++k) {
+      if (observed.on_corners[k]) add(observed.rolls[k], of_rolls[k]);
+    }
+    const double contact = std::numbers::sqrt2 * noise.contact;
     turn_ = std::hypot(std::numbers::sqrt2 * noise.angle, noise.part.turn);
-    scale_ = std::hypot(noise.slip, noise.part.length);
-    for (const Finger& finger : problem.fingers) scale_ = std::hypot(scale_, noise.radius * finger.curvature(0));
     // A contact that is felt beside where it is has another normal on a disk.
-    for (const Finger& finger : problem.fingers) turn_ = std::hypot(turn_, contact_ * finger.curvature(0));
+    for (const Finger& finger : problem.fingers) turn_ = std::hypot(turn_, contact * finger.curvature(0));
   }
 
   bool empty() const { return rows_.empty(); }
@@ -291,23 +299,24 @@ class RowsOnCorners {
  private:
   double worst(const PerFinger<Interval>& box) const {
     double most = 0;
-    for (const Reading& row : rows_) most = std::max(most, gap(row, box) / turn_);
+    for (std::size_t k = 0; k < rows_.size(); ++k) most = std::max(most, gap(k, box) / turn_);
     return std::sqrt(std::max(0.0, most * most - 2 * std::log(static_cast<double>(rows_.size()))));
   }
 
   /// From the turns that a row leaves open to those from this box.
-  double gap(const Reading& row, const PerFinger<Interval>& box) const {
-    Interval turn = turns(row, box, 0);
+  double gap(std::size_t which, const PerFinger<Interval>& box) const {
+    const Reading& row = rows_[which];
+    Interval turn = turns(which, box, 0);
     if (box.size() == 2) {
-      const Interval of_b = turns(row, box, 1);
+      const Interval of_b = turns(which, box, 1);
       turn = {turn.lo - of_b.hi, turn.hi - of_b.lo};
     }
     return std::max({0.0, row.turn - row.pivot - turn.hi, turn.lo - row.turn - row.pivot});
   }
 
-  Interval turns(const Reading& row, const PerFinger<Interval>& box, std::size_t finger) const {
-    const double length = row.length[finger];
-    const double off = kFarthestLength * std::hypot(contact_, scale_ * length);
+  Interval turns(std::size_t which, const PerFinger<Interval>& box, std::size_t finger) const {
+    const double length = rows_[which].length[finger];
+    const double off = kFarthestLength * length_sd_[which];
     const Interval from = angles_over(turning_, on_part(box[finger]));
     const Interval to = angles_over(turning_, on_part({box[finger].lo + length - off, box[finger].hi + length + off}));
     return {to.lo - from.hi, to.hi - from.lo};
@@ -320,11 +329,15 @@ class RowsOnCorners {
     return {on(arc.lo), on(arc.hi)};
   }
 
+  void add(const Reading& row, const RowErrors& errors) {
+    rows_.push_back(row);
+    length_sd_.push_back(std::sqrt(errors.length));
+  }
+
   const TurningFunction& turning_;
   std::vector<Reading> rows_;
-  double contact_ = 0;
+  std::vector<double> length_sd_;  // of each of them
   double turn_ = 0;
-  double scale_ = 0;
 };
 
 /// Rows may be anything, or what turns are off by gathers on the way: that is the posterior's matter.
@@ -344,11 +357,16 @@ CornerRowsSay weigh_corner_rows(const Problem& problem, const LeadingRows& leadi
   const double least = *std::min_element(squares.begin(), squares.end());
   if (*std::max_element(squares.begin(), squares.end()) == 0) return {};
   answer.weighing->evidence.volume -= 0.5 * least;
-  std::vector<Placement> listed;
+  double likeliest = 0;
   for (std::size_t k = 0; k < squares.size(); ++k) {
-    Placement& placement = answer.placements[k];
-    placement.probability *= std::exp(-0.5 * (squares[k] - least));
-    (placement.probability < kLeastListed ? answer.weighing->improbable : listed).push_back(std::move(placement));
+    double& probability = answer.placements[k].probability;
+    probability *= std::exp(-0.5 * (squares[k] - least));
+    likeliest = std::max(likeliest, probability);
+  }
+  std::vector<Placement> listed;
+  for (Placement& placement : answer.placements) {
+    const bool is_left = is_listed(placement.probability, likeliest);
+    (is_left ? listed : answer.weighing->improbable).push_back(std::move(placement));
   }
   std::stable_sort(listed.begin(), listed.end(),
                    [](const Placement& a, const Placement& b) { return a.probability > b.probability; });

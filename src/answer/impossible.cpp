@@ -189,16 +189,12 @@ PerFinger<Reach> reaches_of(const Problem& problem, std::size_t count) {
 double length_error(const Problem& problem, const Observation& observed) {
   const double digits = observed.length_error();
   if (!problem.noise) return digits;
-  double travelled = 0;
-  for (const Reading& roll : observed.rolls) {
-    for (const double length : roll.length) travelled = std::max(travelled, std::abs(length));
+  double most = 0;
+  for (const RowErrors& row :
+       errors_of(problem, noise_on(problem.part, *problem.noise), observed.rolls, problem.part.perimeter())) {
+    most = std::max(most, row.length);
   }
-  const Noise& noise = *problem.noise;
-  double scale = std::hypot(noise.slip, noise.part.length);
-  for (const Finger& finger : problem.fingers) scale = std::hypot(scale, noise.radius * finger.curvature(0));
-  // Of the first contact and of the row.
-  const double contact = std::hypot(noise.contact, noise.contact);
-  return digits + kFarthestRow * std::hypot(contact, scale * travelled);
+  return digits + kFarthestRow * std::sqrt(most);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,23 +67,37 @@ void take(Search found, Answer& answer) {
   answer.counts = found.counts;
 }
 
-/// Of a continuum of pairs those that fit all rows are left: the search is asked about one row after the other that the
-/// place which stands for it does not fit, while something fits them all.
-Answer search_all_rows(const Problem& problem, const Observation& observed, Answer answer) {
-  std::vector<std::size_t> asked;
-  while (const std::optional<std::size_t> row = row_to_ask(problem, observed, answer)) {
-    if (std::find(asked.begin(), asked.end(), *row) != asked.end()) break;
-    asked.push_back(*row);
-    Answer next = answer;
-    const auto at = next.readings.end() - 1;  // the last one stays so
-    next.readings.insert(at, observed.rolls[*row]);
-    if (!next.times.empty()) next.times.insert(next.times.end() - 1, next.pose_time[*row]);
-    put_on_corners(problem.part, observed.length_error(), next.readings);
-    take(search(problem, {}, next), next);
-    if (next.status != Status::complete || next.placements.empty()) break;
-    answer = std::move(next);
+/// What fits these rows as well; nothing where that is none, or not all of it was found.
+std::optional<Answer> asked_about(const Problem& problem, const Observation& observed, const Answer& answer,
+                                  std::span<const std::size_t> rows) {
+  Answer next = answer;
+  for (const std::size_t row : rows) {
+    next.readings.insert(next.readings.end() - 1, observed.rolls[row]);  // the last one stays so
+    if (!next.times.empty()) next.times.insert(next.times.end() - 1, next.pose_time[row]);
   }
-  return answer;
+  put_on_corners(problem.part, observed.length_error(), next.readings);
+  take(search(problem, {}, next), next);
+  if (next.status != Status::complete || next.placements.empty()) return std::nullopt;
+  return next;
+}
+
+/// Of a continuum those places that fit all rows are left: the search is asked about rows that the place which stands
+/// for it does not fit, while something fits them all.
+Answer search_all_rows(const Problem& problem, const Observation& observed, Answer answer) {
+  std::set<std::size_t> asked;
+  while (true) {
+    std::vector<std::size_t> rows = rows_to_ask(problem, observed, answer);
+    std::erase_if(rows, [&](std::size_t row) { return asked.count(row) > 0; });
+    if (rows.empty()) return answer;
+    std::optional<Answer> next = asked_about(problem, observed, answer, rows);
+    if (!next && rows.size() > 1) {
+      rows.resize(1);
+      next = asked_about(problem, observed, answer, rows);
+    }
+    if (!next) return answer;
+    asked.insert(rows.begin(), rows.end());
+    answer = *std::move(next);
+  }
 }
 
 /// Without noise. Rows that contradict every place are wrong themselves: the places count all the same.

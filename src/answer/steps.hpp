@@ -76,6 +76,17 @@ LogKind kind_of(const Problem& problem);
 /// The curvature of finger 0 or 1 where it touches in a row; 0 where the finger is not known.
 double finger_curvature(const Problem& problem, std::size_t which, std::size_t row);
 
+/// How far a row may be off: variances of each length, of the larger one of two, and of the turn.
+struct RowErrors {
+  double length = 0;    // all of it
+  double shared = 0;    // of the turn: what every row has from the first contact
+  double own = 0;       // what this row has on its own
+  double gathered = 0;  // what came together on the way
+};
+/// Of every row of a roll, on a part of this perimeter.
+std::vector<RowErrors> errors_of(const Problem& problem, const Noise& noise, const std::vector<Reading>& rows,
+                                 double perimeter);
+
 /// "heading" or "pose": what was said of how the part lies.
 const char* name_of(const PosePrior& pose);
 

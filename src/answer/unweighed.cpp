@@ -65,23 +65,25 @@ class RowsCheck {
     return placement.pose_residual->length > length + kLeastOff * part_.perimeter();
   }
 
-  /// The row that is furthest off one place of many: others of them may fit it. Nothing where none is off so much.
-  std::optional<std::size_t> row_to_ask() const {
+  /// Rows that are furthest off one place of many, the worst first: others of them may fit. None where none is off so
+  /// much.
+  std::vector<std::size_t> rows_to_ask() const {
     for (const Placement& placement : answer_.placements) {
       if (!is_open_ && is_of_many(placement) && is_off(placement)) return furthest(placement);
     }
-    return std::nullopt;
+    return {};
   }
 
  private:
-  static constexpr double kLeastOff = 1e-6;   // of the perimeter: an outline's own accuracy
+  static constexpr double kLeastOff = 1e-6;  // of the perimeter: an outline's own accuracy
+  static constexpr double kNearlyAsBad = 0.5;
   static constexpr double kContinuum = 1e-3;  // of the perimeter: far more than digits leave open of one place
 
   double bend_over(double width) const { return 2 * part_.turning().most_curvature() * width; }
-  /// A continuum of pairs, but for digits: the one that is listed need not be where the fingers were.
+  /// A continuum, of pairs also but for digits: the place that is listed need not be where the fingers were.
   bool is_of_many(const Placement& placement) const {
-    return placement.start.size() == 2 &&
-           (placement.kind == Kind::stretch || widest(placement) > kContinuum * part_.perimeter());
+    return placement.kind == Kind::stretch ||
+           (placement.start.size() == 2 && widest(placement) > kContinuum * part_.perimeter());
   }
 
   /// Where contacts are known no better.
@@ -102,10 +104,26 @@ class RowsCheck {
     return least;
   }
 
-  std::size_t furthest(const Placement& placement) const {
+  /// Beside what was asked, which says how a finger stands on a corner where it begins: the worst row, and the first
+  /// and the last of those nearly as bad. Where lines meet at a corner these leave the least of a continuum.
+  std::vector<std::size_t> furthest(const Placement& placement) const {
+    std::vector<Reading> asked = answer_.readings;
     std::vector<double> each;
-    for (const Reading& row : observed_.rolls) each.push_back(off(placement, {&row, 1}));
-    return static_cast<std::size_t>(std::max_element(each.begin(), each.end()) - each.begin());
+    for (const Reading& row : observed_.rolls) {
+      asked.push_back(row);
+      each.push_back(off(placement, asked));
+      asked.pop_back();
+    }
+    const auto worst = std::max_element(each.begin(), each.end());
+    const auto is_bad = [&](double misfit) { return misfit >= kNearlyAsBad * *worst; };
+    const auto first = std::find_if(each.begin(), each.end(), is_bad);
+    const auto last = std::prev(std::find_if(each.rbegin(), each.rend(), is_bad).base());
+    std::vector<std::size_t> rows;
+    for (const auto row : {worst, first, last}) {
+      const auto index = static_cast<std::size_t>(row - each.begin());
+      if (std::find(rows.begin(), rows.end(), index) == rows.end()) rows.push_back(index);
+    }
+    return rows;
   }
 
   const Part& part_;
@@ -159,8 +177,8 @@ std::vector<Diagnosis> diagnoses_of(const Problem& problem, const Observation& o
 
 }  // namespace
 
-std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer) {
-  return RowsCheck(problem, observed, answer).row_to_ask();
+std::vector<std::size_t> rows_to_ask(const Problem& problem, const Observation& observed, const Answer& answer) {
+  return RowsCheck(problem, observed, answer).rows_to_ask();
 }
 
 RowsChecked check_rows(const Problem& problem, const Observation& observed, bool explains, const Answer& answer) {

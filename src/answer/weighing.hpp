@@ -11,9 +11,9 @@ namespace rollfix::answer {
 
 // Without noise: a few rows of a log are searched with, and all of them are held against what was found.
 
-/// Of two fingers' log, a row that is off the place which stands for a continuum of pairs: the search is to be asked
-/// about it as well. Nothing where all rows fit those places.
-std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
+/// Rows that are off the place which stands for a continuum, the worst first: the search is to be asked about them as
+/// well. None where all rows fit those places.
+std::vector<std::size_t> rows_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
 
 /// What all rows of a log say of the placements.
 struct RowsChecked {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
+#include "locate/remaining.hpp"
 #include "part/part_data.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
@@ -17,7 +18,7 @@
 //   peak            log L at the likeliest place, with the prior or by the rows alone: `evidence.peak`
 //   cost            2 (peak by the rows alone - peak with the prior), a chi-square of as many degrees as the prior has
 //   widened         by how much the rows are noisier than said; it divides costs as its square
-//   most, that_count   the probability of the likeliest place, and how many places count: Remaining
+//   places             how many remain: Remaining
 //   credible_length    the boundary that 95 % need
 // Follows docs/belief.md, "What the verdict says" and "When the rows fit badly".
 namespace rollfix {
@@ -122,8 +123,8 @@ namespace {
 /// As if the rows fitted.
 Verdict verdict_of_places(const Remaining& remaining, const Boundary& places) {
   const double length = remaining.credible_length;
-  if (places.closed && length > kAnywhere * kCertain * places.perimeter) return {Verdict::unobservable};
-  if (remaining.that_count > 1 && remaining.most < kCertain) return {Verdict::ambiguous, remaining.that_count};
+  if (places.closed && length > kAnywhere * kSureProbability * places.perimeter) return {Verdict::unobservable};
+  if (remaining.places > 1) return {Verdict::ambiguous, remaining.places};
   return length > kWide * places.perimeter ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
 }
 
@@ -131,8 +132,8 @@ Verdict verdict_of_places(const Remaining& remaining, const Boundary& places) {
 
 Verdict belief::verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places) {
   // The best that was seen need not be near the best there is.
-  if (remaining.unresolved > 1 - kCertain) return {Verdict::undecided};
-  if (remaining.most == 0 || fit.excess > kMostExcess) return {Verdict::inconsistent};
+  if (remaining.unresolved > 1 - kSureProbability) return {Verdict::undecided};
+  if (remaining.places == 0 || fit.excess > kMostExcess) return {Verdict::inconsistent};
   Verdict verdict = verdict_of_places(remaining, places);
   verdict.fits_badly = fit.is_bad();
   return verdict;
@@ -142,14 +143,14 @@ template <class Place>
 Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
   settle();
   if (!posterior->has_begun()) return {Verdict::unobservable};
-  std::vector<PerFinger<Interval>> that_count;
-  for (const Place& each : places) {
-    if (each.probability >= kCounts) that_count.push_back(each.interval);
-  }
   Remaining remaining;
-  remaining.that_count = that_count.size();
+  remaining.places = how_many_remain(places, &Place::probability);
   if (!places.empty()) {
-    remaining.most = places.front().probability;
+    const double least = least_that_counts(places, &Place::probability);
+    std::vector<PerFinger<Interval>> that_count;
+    for (const Place& each : places) {
+      if (each.probability >= least) that_count.push_back(each.interval);
+    }
     remaining.credible_length = posterior->credible_length(that_count);
   }
   remaining.unresolved = outcome.unresolved;

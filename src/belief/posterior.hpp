@@ -23,10 +23,6 @@ namespace rollfix::belief {
 inline constexpr double kMostExcess = 2.5;
 // The farthest of the errors that are let pass, in standard deviations.
 inline constexpr double kFarthest = 4.5;
-// A place with this probability is the only one.
-inline constexpr double kCertain = kSureProbability;
-// One with less than this is not counted among those that remain.
-inline constexpr double kCounts = kLeastProbability;
 // Of samples that are asked to be robust, this share is taken to be stray.
 inline constexpr double kOutlierShare = 0.02;
 // The samples' cost is beyond what chance makes of it: this many standard deviations of a chi-square.
@@ -39,8 +35,6 @@ inline constexpr double kMostErrorSigmas = 8;
 inline constexpr double kMostScale = 0.5;
 // Two peaks are two places when the density on the best way between them is below exp(-3) = 5 % of the lower one.
 inline constexpr double kValley = 3;
-// A mode with less probability than this is not listed.
-inline constexpr double kLeastProbability = 1e-4;
 // What an interval of a mode holds.
 inline constexpr double kCredible = 0.95;
 // A piece of the posterior with less of it is not told of.
@@ -247,11 +241,9 @@ std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, cons
 std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
                                             const FingerGeometry& contacts);
 
-/// What is left of all places: how many that count, how probable the likeliest is, 0 of none, and as much of the
-/// boundary as holds 95 %, length.
+/// What is left of all places: how many remain (how_many_remain), and as much of the boundary as holds 95 %, length.
 struct Remaining {
-  std::size_t that_count = 0;
-  double most = 0;
+  std::size_t places = 0;
   double credible_length = 0;
   double unresolved = 0;  // so much of the probability is anywhere: points did not suffice to tell
 };

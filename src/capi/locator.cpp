@@ -7,6 +7,7 @@
 #include <new>
 
 #include "belief/posterior.hpp"
+#include "locate/remaining.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger.hpp"
 
@@ -113,9 +114,7 @@ void Locator::locate() {
     log.grid.settle(log.nodes);
     log.modes = modes_of(log.grid, {&boundary_, log.last, errors_.row(0), part_.boundary()});
     Remaining remaining;
-    remaining.that_count = static_cast<std::size_t>(std::count_if(
-        log.modes.begin(), log.modes.end(), [](const Mode& mode) { return mode.probability >= kCounts; }));
-    remaining.most = log.modes.empty() ? 0 : log.modes.front().probability;
+    remaining.places = how_many_remain(log.modes, &Mode::probability);
     remaining.credible_length = credible_length(log.grid);
     remaining.unresolved = log.grid.rest();
     verdict_ = verdict_of(log.grid.fit(), remaining, part_.boundary());

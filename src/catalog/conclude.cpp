@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "belief/posterior.hpp"
+#include "locate/remaining.hpp"
 #include "part/turning_range.hpp"
 #include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
@@ -94,20 +95,14 @@ std::string words_for_one(const PartWeight& weight) {
   return weight.places == 1 ? "unique place" : counted(weight.places, "place", "places");
 }
 
-std::string verdict_of(const Conclusion& conclusion, const std::vector<PartWeight>& weights, bool noisy,
-                       const Wording& wording) {
-  std::vector<std::size_t> that_count;
-  for (const std::size_t k : conclusion.order) {
-    if (!noisy || conclusion.probability[k] >= belief::kCounts) that_count.push_back(k);
-  }
-  if (that_count.empty()) return conclusion.status == Status::incomplete ? "undecided" : "none";
-  const PartWeight& first = weights[that_count.front()];
+std::string verdict_of(const Conclusion& conclusion, const std::vector<PartWeight>& weights, const Wording& wording) {
+  const std::size_t count = how_many_remain(conclusion.order, [&](std::size_t k) { return conclusion.probability[k]; });
+  if (count == 0) return conclusion.status == Status::incomplete ? "undecided" : "none";
+  const PartWeight& first = weights[conclusion.order.front()];
   const std::string badly = first.fits_badly ? wording.badly : "";
-  const bool is_one =
-      that_count.size() == 1 || (noisy && conclusion.probability[that_count.front()] >= belief::kCertain);
-  if (is_one) return fmt::format("unique part, {}{}", wording.of_one(first), badly);
-  const bool alike = conclusion.congruent[that_count.front()].size() + 1 >= that_count.size();
-  return fmt::format("{} {}{}", that_count.size(), alike ? "congruent parts" : "parts", badly);
+  if (count == 1) return fmt::format("unique part, {}{}", wording.of_one(first), badly);
+  const bool alike = conclusion.congruent[conclusion.order.front()].size() + 1 >= count;
+  return fmt::format("{} {}{}", count, alike ? "congruent parts" : "parts", badly);
 }
 
 /// Of those that are listed, which can't be told apart.
@@ -174,13 +169,16 @@ Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weigh
   Conclusion conclusion;
   conclusion.probability.assign(weights.size(), std::numeric_limits<double>::quiet_NaN());
   if (likeness.noisy && !weights.empty()) conclusion.probability = probabilities(catalog, weights);
+  double likeliest = 0;
+  for (const double each : conclusion.probability) likeliest = std::fmax(likeliest, each);
+  const double least = std::min(kLeastPartProbability, kLeastProbability * likeliest);
   const auto counts = [&](std::size_t k) { return !likeness.noisy || conclusion.probability[k] > 0; };
   std::size_t counted = 0;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     if (!counts(k)) continue;
     ++counted;
     if (weights[k].undecided) conclusion.status = Status::incomplete;
-    const bool is_listed = weights[k].fits && (!likeness.noisy || conclusion.probability[k] >= kLeastPartProbability);
+    const bool is_listed = weights[k].fits && (!likeness.noisy || conclusion.probability[k] >= least);
     if (is_listed) {
       conclusion.order.push_back(k);
     } else if (likeness.noisy) {
@@ -197,7 +195,7 @@ Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weigh
     return weights[a].part < weights[b].part;
   });
   compare(catalog, weights, likeness, conclusion);
-  conclusion.verdict = verdict_of(conclusion, weights, likeness.noisy, wording);
+  conclusion.verdict = verdict_of(conclusion, weights, wording);
   return conclusion;
 }
 

@@ -7,6 +7,7 @@
 #include "held_question.hpp"
 #include "hold_fit.hpp"
 #include "hold_mistakes.hpp"
+#include "locate/remaining.hpp"
 #include "mended_holds.hpp"
 #include "problem.hpp"
 #include "rollfix/hold.hpp"
@@ -107,8 +108,8 @@ class HoldSolver {
       return;
     }
     if (placements.empty()) return;
-    const bool is_sure = placements.size() == 1 || placements.front().probability >= kSureProbability;
-    verdict.places = is_sure ? 1 : placements.size();
+    verdict.places = how_many_remain(placements, &HoldPlacement::probability);
+    const bool is_sure = verdict.places == 1;
     verdict.stretches = 0;
     for (std::size_t k = 0; k < verdict.places; ++k) verdict.stretches += placements[k].continuum ? 1 : 0;
     const bool is_anywhere =

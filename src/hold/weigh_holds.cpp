@@ -11,6 +11,7 @@
 #include "fingers_apart.hpp"
 #include "held_rows.hpp"
 #include "hold_fit.hpp"
+#include "locate/remaining.hpp"
 
 // Notation:
 //   set             boxes of first contacts that hang together; optimum: where a fit from within ends
@@ -28,7 +29,6 @@ constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are lo
 constexpr int kNudges = 4;                // to both sides, of a contact's error each, ...
 constexpr double kFitsNowhere = 1e-6;     // ... where all rows are less probable
 constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
-constexpr double kLeastHoldShare = 1e-4;  // a set that is less probable is counted, not listed
 constexpr double kWideHold = 0.1;         // of the perimeter: no place is known no better, as of one finger
 
 class HoldWeighing {
@@ -67,7 +67,7 @@ class HoldWeighing {
     answer_.log_evidence = most + std::log(sum);
     for (const HoldMode& mode : modes) {
       const double probability = std::exp(mode.log_weight - most) / sum;
-      if (probability < kLeastHoldShare) {
+      if (probability < kLeastListed) {
         ++answer_.improbable;
         answer_.rest += probability;
         continue;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "answer_poses.hpp"
+#include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "pose_fit.hpp"
 #include "pose_sets.hpp"
@@ -118,7 +119,7 @@ void PoseMixture::finish(const TouchProblem& problem, double log_total, TouchAns
   answer.rest = 1;
   for (std::size_t k = 0; k < merged.size(); ++k) {
     TouchPose& pose = merged[k];
-    if (!(pose.probability >= kLeastProbability)) {
+    if (!(pose.probability >= kLeastListed)) {
       ++answer.improbable;
       continue;
     }

@@ -98,9 +98,6 @@ struct WeighedPoses {
   bool is_too_long = false;            // so many places that they were not weighed
 };
 
-// Sets of poses that are less probable are counted, not listed.
-inline constexpr double kLeastProbability = 1e-4;
-
 /// The most probable first; those that are as probable, as of a symmetric part, by their headings.
 void put_in_order(std::vector<TouchPose>& poses);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answer_poses.hpp"
+#include "locate/remaining.hpp"
 #include "mistakes.hpp"
 #include "outlier_sets.hpp"
 #include "pose_sets.hpp"
@@ -45,8 +46,8 @@ void conclude(TouchAnswer& answer) {
     verdict.name = Verdict::inconsistent;
     return;
   }
-  const bool is_sure = poses.size() == 1 || poses.front().probability >= kSureProbability;
-  const std::size_t places = is_sure ? 1 : poses.size();
+  const std::size_t places = how_many_remain(poses, &TouchPose::probability);
+  const bool is_sure = places == 1;
   const auto stretches =
       static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),
                                              [](const TouchPose& pose) { return pose.continuum; }));
@@ -96,7 +97,7 @@ double weigh_by_paths(const TouchProblem& problem, const AllContacts& contacts, 
   double left = 0;
   for (const PosteriorNode& node : nodes) left += std::exp(node.log_weight);
   for (std::size_t k = 0; k < nodes.size(); ++k) answer.poses[k].probability = std::exp(nodes[k].log_weight) / left;
-  std::erase_if(answer.poses, [](const TouchPose& pose) { return !(pose.probability >= kLeastProbability); });
+  std::erase_if(answer.poses, [](const TouchPose& pose) { return !(pose.probability >= kLeastListed); });
   put_in_order(answer.poses);
   if (answer.status == Status::complete) conclude(answer);
   return std::log(left);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "answer_poses.hpp"
+#include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "posterior.hpp"
 
@@ -286,7 +287,7 @@ void add_modes(const Asked& asked, const CellSets& sets, std::vector<PoseMode> m
                const std::vector<PosteriorNode>& nodes, WeighedPoses& result) {
   result.log_evidence = log_total(nodes);
   for (const PoseSet& set : sets_to_list(asked, sets, std::move(modes), nodes, result)) {
-    const bool is_listed = set.mode.probability >= kLeastProbability && worst_of(asked.fit, set.fitted) <= 1;
+    const bool is_listed = set.mode.probability >= kLeastListed && worst_of(asked.fit, set.fitted) <= 1;
     if (!is_listed) {
       leave_out(set.mode, result);
       continue;

@@ -83,7 +83,7 @@ struct Tally {
 
 Tally tally_of(const Planted& planted, bool centres) {
   Tally tally;
-  const int count = test_count(6);
+  const int count = test_count(4);
   for (int number = 0; number < count; ++number) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(number) + 900);
     HoldCase one = random_hold(smooth(number), noisy(centres), generator);

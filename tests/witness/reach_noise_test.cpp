@@ -48,6 +48,20 @@ TEST(ReachNoise, a_finger_that_rolled_until_it_met_something_did_not_roll_furthe
   }
 }
 
+TEST(ReachNoise, a_wheel_whose_increments_add_up_to_too_much_did_not_roll_further) {
+  const Part part(shapes::polygon({{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}}));
+  const Noise noise{0.01, 0.002};
+  std::mt19937_64 generator = test_generator(19);
+  for (int round = 0; round < test_count(20); ++round) {
+    // A wheel of radius 1 touches the side from 8 on when it is at 7. Its 2000 rows are off by 0.45 together.
+    rollfix::Problem problem{part, {rollfix::noisy_increments(part, 2.7, 4.2, 2000, noise, generator()).log}};
+    problem.fingers = {rollfix::disk(1)};
+    problem.noise = noise;
+    problem.prior = rollfix::Prior{2.7, 0.01};
+    EXPECT_TRUE(holds(rollfix::solve(problem), {2.7}));
+  }
+}
+
 TEST(ReachNoise, fingers_that_passed_each_other_at_a_corner_did_not_overlap) {
   const Part part = free_rolls::part_of("polygon,n=5");
   const Noise noise{0.01, 0.003, 0.003, 0};

@@ -5,6 +5,7 @@
 
 #include "belief/one/grid.hpp"
 #include "belief/posterior.hpp"
+#include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/turning_function.hpp"
 
@@ -249,15 +250,22 @@ class ModeOfRun {
 std::pmr::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
   std::pmr::vector<Mode> modes(grid.memory());
   const auto is_likelier = [](const Mode& a, const Mode& b) { return a.probability > b.probability; };
+  std::pmr::vector<Run> runs(grid.memory());
+  std::pmr::vector<double> probability(grid.memory());
   for (const Run& arc : arcs_of(grid, *question.boundary)) {
     if (arc.cells.empty()) continue;
-    for (const Run& run : cut_at_valleys(arc, grid.memory())) {
-      double probability = 0;
-      for (const GridCell* cell : run.cells) probability += cell->share;
-      if (probability < kLeastProbability) continue;
-      const Mode mode = ModeOfRun(grid, question, run).mode();
-      modes.insert(std::upper_bound(modes.begin(), modes.end(), mode, is_likelier), mode);
+    for (Run& run : cut_at_valleys(arc, grid.memory())) {
+      double& of_run = probability.emplace_back(0);
+      for (const GridCell* cell : run.cells) of_run += cell->share;
+      runs.push_back(std::move(run));
     }
+  }
+  if (runs.empty()) return modes;
+  const double likeliest = *std::max_element(probability.begin(), probability.end());
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!is_listed(probability[k], likeliest)) continue;
+    const Mode mode = ModeOfRun(grid, question, runs[k]).mode();
+    modes.insert(std::upper_bound(modes.begin(), modes.end(), mode, is_likelier), mode);
   }
   return modes;
 }

@@ -1,11 +1,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <unordered_map>
 
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
+#include "locate/remaining.hpp"
 #include "rollfix/turning_function.hpp"
 
 // Notation:
@@ -35,7 +36,7 @@ std::vector<std::size_t> beside(const PairRegion& region, const PairLeaf& leaf) 
 }
 
 /// For each leaf of a region the leaf at the top of its hill.
-std::vector<std::size_t> hills(const PairRegion& region) {
+std::vector<std::size_t> tops_of(const PairRegion& region) {
   const std::size_t count = region.leaves.size();
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -92,11 +93,11 @@ double quantile(const std::vector<Grain>& grains, double mass) {
 class PairHill {
  public:
   PairHill(const PairRegion& region, std::vector<std::size_t> leaves, const PairModel& model, const Reading& last)
-      : region_(region), leaves_(std::move(leaves)), model_(model), last_(last.length) {}
+      : region_(&region), leaves_(std::move(leaves)), model_(&model), last_(last.length) {}
 
   double probability() const {
     double sum = 0;
-    for (const std::size_t k : leaves_) sum += region_.leaves[k].share;
+    for (const std::size_t k : leaves_) sum += region_->leaves[k].share;
     return sum;
   }
 
@@ -107,15 +108,35 @@ class PairHill {
     const PairStart start = moved(best.start, step_to_peak(best));
     for (const std::size_t finger : {0U, 1U}) {
       const double s = start.arc[finger]->at(start.w[finger]).s;
-      mode.start[finger] = model_.places.on_first_lap(s);
-      mode.tangent[finger] = start.w[finger] - model_.boundary[finger]->tilt() * s;
-      mode.end[finger] = model_.places.on_first_lap(s + rolled(best, finger));
+      mode.start[finger] = model_->places.on_first_lap(s);
+      mode.tangent[finger] = start.w[finger] - model_->boundary[finger]->tilt() * s;
+      mode.end[finger] = model_->places.on_first_lap(s + rolled(best, finger));
     }
     add_spread(mode);
     for (const std::size_t finger : {0U, 1U}) {
-      if (!model_.places.contains(mode.interval[finger], mode.start[finger])) return in_the_middle(mode);
+      if (!model_->places.contains(mode.interval[finger], mode.start[finger])) return in_the_middle(mode);
     }
     return mode;
+  }
+
+  std::vector<Piece> pieces() const {
+    const auto counts = [](const PairGrain& grain) { return grain.share > kLeastShare; };
+    std::ptrdiff_t count = 0;  // of a continuum hundreds of thousands, so that no room is made for more
+    for (const std::size_t k : leaves_) {
+      const std::vector<PairGrain>& grains = region_->leaves[k].grains;
+      count += std::count_if(grains.begin(), grains.end(), counts);
+    }
+    std::vector<Piece> pieces;
+    pieces.reserve(static_cast<std::size_t>(count));
+    for (const std::size_t k : leaves_) {
+      const PairScore& score = region_->leaves[k].score;
+      for (const PairGrain& grain : region_->leaves[k].grains) {
+        if (!counts(grain)) continue;
+        pieces.push_back({grain.s, grain.angle, grain.share, std::nullopt,
+                          PerFinger<double>(score.errors[0], score.errors[1]), score.covariance.topLeftCorner<2, 2>()});
+      }
+    }
+    return pieces;
   }
 
  private:
@@ -126,25 +147,25 @@ class PairHill {
     const PairGrain* middle = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t k : leaves_) {
-      for (const PairGrain& grain : region_.leaves[k].grains) {
+      for (const PairGrain& grain : region_->leaves[k].grains) {
         double off = 0;
         bool is_inside = true;
         for (const std::size_t finger : {0U, 1U}) {
-          const double at = model_.places.on_first_lap(grain.s[finger]);
-          off += square(model_.places.offset(mode.mean[finger], at));
-          is_inside = is_inside && model_.places.contains(mode.interval[finger], at);
+          const double at = model_->places.on_first_lap(grain.s[finger]);
+          off += square(model_->places.offset(mode.mean[finger], at));
+          is_inside = is_inside && model_->places.contains(mode.interval[finger], at);
         }
         if (!is_inside || off >= least) continue;
         least = off;
-        nearest = &region_.leaves[k];
+        nearest = &region_->leaves[k];
         middle = &grain;
       }
     }
     if (middle == nullptr) return mode;
     for (const std::size_t finger : {0U, 1U}) {
-      mode.start[finger] = model_.places.on_first_lap(middle->s[finger]);
+      mode.start[finger] = model_->places.on_first_lap(middle->s[finger]);
       mode.tangent[finger] = middle->angle[finger];
-      mode.end[finger] = model_.places.on_first_lap(middle->s[finger] + rolled(*nearest, finger));
+      mode.end[finger] = model_->places.on_first_lap(middle->s[finger] + rolled(*nearest, finger));
     }
     return mode;
   }
@@ -162,22 +183,22 @@ class PairHill {
   const PairLeaf& peak() const {
     std::size_t best = leaves_.front();
     for (const std::size_t k : leaves_) {
-      if (region_.leaves[k].score.log_likelihood() > region_.leaves[best].score.log_likelihood()) best = k;
+      if (region_->leaves[k].score.log_likelihood() > region_->leaves[best].score.log_likelihood()) best = k;
     }
-    return region_.leaves[best];
+    return region_->leaves[best];
   }
 
   /// One step of Newton's method, no further than the leaf goes.
   Eigen::Vector2d step_to_peak(const PairLeaf& leaf) const {
-    const Eigen::Matrix2d information = region_.frame.transpose() * leaf.score.information * region_.frame;
-    const Eigen::Vector2d slope = region_.frame.transpose() * leaf.score.slope;
+    const Eigen::Matrix2d information = region_->frame.transpose() * leaf.score.information * region_->frame;
+    const Eigen::Vector2d slope = region_->frame.transpose() * leaf.score.slope;
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
     const Eigen::Matrix2d ridged = information + 1e-9 * (information.trace() + 1e-300) * Eigen::Matrix2d::Identity();
     step = ridged.inverse() * slope;
     const double most = step.cwiseAbs().maxCoeff();
     if (!std::isfinite(most)) return Eigen::Vector2d::Zero();
     if (most > 0.5 * leaf.size) step *= 0.5 * leaf.size / most;
-    return region_.frame * step;
+    return region_->frame * step;
   }
 
   double rolled(const PairLeaf& leaf, std::size_t finger) const {
@@ -190,7 +211,7 @@ class PairHill {
     const double length = rolled(leaf, finger);
     const PairSharedCovariance& P = leaf.score.covariance;
     return std::max(0.0, P(i, i) - 2 * length * P(i, 2 + i) + length * length * P(2 + i, 2 + i)) +
-           model_.errors->contact_variance();
+           model_->errors->contact_variance();
   }
 
   void add_spread(Mode& mode) const {
@@ -201,12 +222,12 @@ class PairHill {
     Eigen::Vector2d end_squares = Eigen::Vector2d::Zero();
     std::array<std::vector<Grain>, 2> grains;
     for (const std::size_t k : leaves_) {
-      const PairLeaf& leaf = region_.leaves[k];
+      const PairLeaf& leaf = region_->leaves[k];
       for (const PairGrain& grain : leaf.grains) {
         Eigen::Vector2d off;
         for (const std::size_t finger : {0U, 1U}) {
           const auto i = static_cast<Eigen::Index>(finger);
-          off[i] = grain.s[finger] - region_.origin_s[finger];
+          off[i] = grain.s[finger] - region_->origin_s[finger];
           const double end = off[i] + rolled(leaf, finger);
           end_sum[i] += grain.share * end;
           end_squares[i] += grain.share * (end * end + variance_rolled(leaf, finger));
@@ -221,17 +242,17 @@ class PairHill {
     mode.covariance = squares / total - mean * mean.transpose();
     for (const std::size_t finger : {0U, 1U}) {
       const auto i = static_cast<Eigen::Index>(finger);
-      const double origin = region_.origin_s[finger];
-      mode.mean[finger] = model_.places.on_first_lap(origin + mean[i]);
+      const double origin = region_->origin_s[finger];
+      mode.mean[finger] = model_->places.on_first_lap(origin + mean[i]);
       mode.sd[finger] = std::sqrt(std::max(0.0, mode.covariance(i, i)));
       const double end = end_sum[i] / total;
-      mode.end_mean[finger] = model_.places.on_first_lap(origin + end);
+      mode.end_mean[finger] = model_->places.on_first_lap(origin + end);
       mode.end_sd[finger] = std::sqrt(std::max(0.0, end_squares[i] / total - end * end));
       std::vector<Grain>& of_finger = grains[finger];
       std::sort(of_finger.begin(), of_finger.end(), [](const Grain& a, const Grain& b) { return a.s < b.s; });
       const auto as_interval = [&](double lo, double hi) {
-        const double at = model_.places.on_first_lap(origin + lo);
-        return Interval{at, at + std::min(hi - lo, model_.perimeter())};
+        const double at = model_->places.on_first_lap(origin + lo);
+        return Interval{at, at + std::min(hi - lo, model_->perimeter())};
       };
       mode.interval[finger] = as_interval(quantile(of_finger, 0.5 * (1 - kCredible) * total),
                                           quantile(of_finger, 0.5 * (1 + kCredible) * total));
@@ -239,55 +260,46 @@ class PairHill {
     }
   }
 
-  const PairRegion& region_;
+  const PairRegion* region_;
   std::vector<std::size_t> leaves_;
-  const PairModel& model_;
+  const PairModel* model_;
   PerFinger<double> last_;
 };
+
+/// In the order of their tops.
+std::vector<PairHill> hills_of(const PairRegion& region, const PairModel& model, const Reading& last) {
+  const std::vector<std::size_t> tops = tops_of(region);
+  std::map<std::size_t, std::vector<std::size_t>> by_top;
+  for (std::size_t k = 0; k < tops.size(); ++k) by_top[tops[k]].push_back(k);
+  std::vector<PairHill> hills;
+  for (auto& [top, leaves] : by_top) hills.emplace_back(region, std::move(leaves), model, last);
+  return hills;
+}
 
 }  // namespace
 
 PairModes modes_of(const PairDensity& density, const PairModel& model, const Reading& last) {
+  std::vector<PairHill> hills;
+  double likeliest = 0;
+  for (const PairRegion& region : density.regions) {
+    for (PairHill& hill : hills_of(region, model, last)) {
+      likeliest = std::max(likeliest, hill.probability());
+      hills.push_back(std::move(hill));
+    }
+  }
   struct Found {
     Mode mode;
     std::vector<Piece> pieces;
   };
   std::vector<Found> all;
-  for (const PairRegion& region : density.regions) {
-    const std::vector<std::size_t> tops = hills(region);
-    std::unordered_map<std::size_t, std::vector<std::size_t>> by_top;
-    for (std::size_t k = 0; k < tops.size(); ++k) by_top[tops[k]].push_back(k);
-    std::vector<std::size_t> order;
-    for (const auto& [top, leaves] : by_top) order.push_back(top);
-    std::sort(order.begin(), order.end());
-    for (const std::size_t top : order) {
-      const PairHill hill(region, by_top[top], model, last);
-      if (hill.probability() < kLeastProbability) continue;
-      Found found{hill.mode(), {}};
-      const auto counts = [](const PairGrain& grain) { return grain.share > kLeastShare; };
-      std::ptrdiff_t count = 0;  // of a continuum hundreds of thousands, so that no room is made for more
-      for (const std::size_t k : by_top[top]) {
-        const std::vector<PairGrain>& grains = region.leaves[k].grains;
-        count += std::count_if(grains.begin(), grains.end(), counts);
-      }
-      found.pieces.reserve(static_cast<std::size_t>(count));
-      for (const std::size_t k : by_top[top]) {
-        const PairScore& score = region.leaves[k].score;
-        for (const PairGrain& grain : region.leaves[k].grains) {
-          if (!counts(grain)) continue;
-          found.pieces.push_back({grain.s, grain.angle, grain.share, std::nullopt,
-                                  PerFinger<double>(score.errors[0], score.errors[1]),
-                                  score.covariance.topLeftCorner<2, 2>()});
-        }
-      }
-      all.push_back(std::move(found));
-    }
+  for (const PairHill& hill : hills) {
+    if (is_listed(hill.probability(), likeliest)) all.push_back({hill.mode(), hill.pieces()});
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Found& a, const Found& b) { return a.mode.probability > b.mode.probability; });
   PairModes result;
   for (Found& found : all) {
-    result.modes.push_back(found.mode);
+    result.modes.push_back(std::move(found.mode));
     result.pieces.push_back(std::move(found.pieces));
   }
   return result;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "answer/steps.hpp"
-#include "belief/error_model.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 
@@ -55,59 +54,6 @@ std::vector<std::size_t> some_of(std::size_t rows, std::size_t wanted) {
 
 double square(double x) { return x * x; }
 
-/// How far a row may be off: variances of each length, and of the turn.
-struct RowErrors {
-  double length = 0;    // all of it
-  double shared = 0;    // of the turn: what every row has from the first contact
-  double own = 0;       // what this row has on its own
-  double gathered = 0;  // what came together on the way
-};
-
-/// Of every row of the roll, on a part of this perimeter.
-std::vector<RowErrors> errors_of(const Problem& problem, const std::vector<Reading>& rows, double perimeter) {
-  BeliefOptions options;
-  options.noise = *problem.noise;
-  options.bare = !problem.measured.is_log();
-  const LogKind kind = kind_of(problem);
-  const belief::SensorErrors sensor(options, kind, perimeter);
-  const std::size_t fingers = rows.front().fingers();
-  std::vector<RowErrors> errors;
-  double slipped = 0;
-  double drifted = 0;
-  Reading before = fingers == 1 ? Reading(0, 0) : Reading(0, 0, 0);
-  double time = 0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();
-    const double now = has_times ? problem.measured.log->time[k] - problem.measured.log->time[0] : 0;
-    RowErrors row;
-    double longest_step = 0;
-    double longest_slip = 0;
-    for (std::size_t which = 0; which < fingers; ++which) {
-      const double curvature = finger_curvature(problem, which, problem.measured.is_log() ? k : 0);
-      const double contact = kind == LogKind::contact ? square(curvature) * sensor.contact_variance : 0;
-      row.own += sensor.angle_variance + contact;
-      row.length = std::max(
-          row.length, 2 * sensor.contact_variance + sensor.scale_variance(curvature) * square(rows[k].length[which]));
-      const double step = rows[k].length[which] - before.length[which];
-      longest_step = std::max(longest_step, std::abs(step));
-      longest_slip = std::max(longest_slip, sensor.slipped(options.bare ? rows[k].length[which] : step));
-    }
-    slipped = (options.bare ? 0 : slipped) + longest_slip;
-    drifted += static_cast<double>(fingers) * sensor.drifted(longest_step, {time, now});
-    if (sensor.gathers_rows()) {
-      slipped += sensor.contact_variance;
-      drifted += static_cast<double>(fingers) * sensor.angle_variance;
-    }
-    row.shared = row.own;
-    row.length += slipped;
-    row.gathered = drifted + square(sensor.noise.gyro * rows[k].turn);
-    errors.push_back(row);
-    before = rows[k];
-    time = now;
-  }
-  return errors;
-}
-
 /// The larger of both.
 void widen(std::vector<RowErrors>& errors, const std::vector<RowErrors>& others) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -134,8 +80,8 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
   RollClues roll;
   for (Clues* clues : {&roll.few, &roll.many}) clues->fingers = rows.front().fingers();
   if (problem.robust) return roll;  // any row may be a stray one
-  std::vector<RowErrors> errors = errors_of(problem, rows, range.lo);
-  widen(errors, errors_of(problem, rows, range.hi));
+  std::vector<RowErrors> errors = errors_of(problem, *problem.noise, rows, range.lo);
+  widen(errors, errors_of(problem, *problem.noise, rows, range.hi));
   const auto clue = [&](std::size_t row) {
     Clue one;
     one.length = rows[row].length;
