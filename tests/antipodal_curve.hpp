@@ -1,12 +1,15 @@
 #pragma once
 
-// What two fingers squeeze: pairs of places whose normals lie on the line between them, a question that the search for
-// two rolls knows nothing of, told as two curves that meet.
+// Antipodal pairs, whose normals lie on the line between them: what two fingers squeeze, or push apart from inside a
+// notch. A question that the search for two rolls knows nothing of, told as two curves that meet.
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -32,7 +35,7 @@ using rollfix::locating::PlaneCurve;
 //   g(s)            p . T, by the perimeter (row 0); g' = (1 + kappa p . N) / P
 //   Theta(s)        the tangent's angle (row 1)
 // At p and q a line hits the outline at right angles from both sides when T_q = -T_p and (q - p) . T_p = 0: Theta(s) =
-// Theta(t) + pi modulo 2 pi and g(s) = -g(t). At a convex corner p stays and T turns.
+// Theta(t) + pi modulo 2 pi and g(s) = -g(t). At a convex corner p stays and T turns; at a concave one no finger fits.
 
 /// `sign` g(s) and Theta(s) + `shift`: +1 and 0 for p, -1 and pi for q.
 class Curve final : public PlaneCurve {
@@ -55,12 +58,15 @@ class Curve final : public PlaneCurve {
   CurvePoint point(const Node& node, double x) const override {
     const double nearest = std::clamp(x, node.lo, node.hi);
     const Here at = here(pieces_[node.piece], nearest);
-    CurvePoint point(nearest, rows(), rows());
+    CurvePoint point(nearest, rows(), 3);
     for (const std::size_t row : {0U, 1U}) {
       point.values()[row] = value(at, row);
       point.slopes()[row] = slope(at, row);
-      point.rates()[row] = slope(at, row);
     }
+    const double across = at.tangent.curvature * at.point.dot(normal(at.tangent.angle));
+    point.rates()[0] = at.tangent.curvature;
+    point.rates()[1] = 1 / part_.perimeter();
+    point.rates()[2] = across / part_.perimeter();
     point.step(x - nearest);
     return point;
   }

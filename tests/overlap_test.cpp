@@ -45,16 +45,31 @@ std::vector<Vec2> points_of(const Finger& finger, const Pose& pose) {
   return points;
 }
 
-/// The least shift that gets the points of one off those of the other, over many directions.
+/// The shift in this direction that gets the points of one off those of the other.
+double depth_towards(double angle, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  const double x = std::cos(angle);
+  const double y = std::sin(angle);
+  double most_a = -std::numeric_limits<double>::infinity();
+  double least_b = std::numeric_limits<double>::infinity();
+  for (const Vec2& point : a) most_a = std::max(most_a, x * point[0] + y * point[1]);
+  for (const Vec2& point : b) least_b = std::min(least_b, x * point[0] + y * point[1]);
+  return most_a - least_b;
+}
+
+/// The least shift: over directions, and over finer ones about each that may lead to it.
 double scanned_depth(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 4000; ++k) {
-    const Vec2 along(std::cos(kTurn * k / 4000), std::sin(kTurn * k / 4000));
-    double most_a = -std::numeric_limits<double>::infinity();
-    double least_b = std::numeric_limits<double>::infinity();
-    for (const Vec2& point : a) most_a = std::max(most_a, point.dot(along));
-    for (const Vec2& point : b) least_b = std::min(least_b, point.dot(along));
-    least = std::min(least, most_a - least_b);
+  constexpr int kDirections = 400;
+  constexpr int kFiner = 10;
+  const double step = kTurn / kDirections;
+  std::vector<double> depths;
+  for (int k = 0; k < kDirections; ++k) depths.push_back(depth_towards(step * k, a, b));
+  double least = *std::min_element(depths.begin(), depths.end());
+  const double near = least + 6 * step;  // nothing is farther away than 6
+  for (int k = 0; k < kDirections; ++k) {
+    if (depths[static_cast<std::size_t>(k)] > near) continue;
+    for (int finer = -kFiner; finer <= kFiner; ++finer) {
+      least = std::min(least, depth_towards(step * (k + 0.5 * finer / kFiner), a, b));
+    }
   }
   return least;
 }

@@ -53,7 +53,7 @@ std::vector<double> widths(const Part& part) {
 
 auto near(const std::vector<double>& expected) { return Pointwise(testing::DoubleNear(kAccurate), expected); }
 
-/// A curve of this support function's sum of radii: 1 + e cos(2 m theta).
+/// A boundary with the support function 1 + e cos(2 m theta).
 Part with_support(int m, double e) {
   std::vector<Vec2> points;
   const int count = 200 * m;
@@ -66,7 +66,7 @@ Part with_support(int m, double e) {
   return Part({"support", rollfix::spline_through(points, true), true});
 }
 
-/// Where a scan of all pairs of places, in steps of P / n, and Newton's method from each place that may be one lead.
+/// By a scan of all pairs of places in steps of P / n: Newton's method starts wherever a cell may hold a pair.
 std::vector<Vec2> scanned(const Part& part, int n) {
   const double P = part.perimeter();
   const auto misfit = [&](double s, double t) {

@@ -1,4 +1,4 @@
-#include "weighing.hpp"
+#include "impossible.hpp"
 
 #include <algorithm>
 #include <cmath>

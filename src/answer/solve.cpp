@@ -13,11 +13,13 @@
 
 #include "either_way.hpp"
 #include "finger_corners.hpp"
+#include "impossible.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
 #include "steps.hpp"
+#include "unweighed.hpp"
 #include "weighing.hpp"
 
 namespace rollfix::answer {

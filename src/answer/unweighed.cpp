@@ -1,4 +1,4 @@
-#include "weighing.hpp"
+#include "unweighed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
+#include "weighing.hpp"
 
 // Notation:
 //   off             by how much a row misses a placement, against what digits leave open: `kOverTolerance` times

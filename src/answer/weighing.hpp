@@ -1,28 +1,11 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "rollfix/solve.hpp"
 #include "steps.hpp"
 
 namespace rollfix::answer {
-
-// Without noise: a few rows of a log are searched with, and all of them are held against what was found.
-
-/// Rows that are off the place which stands for a continuum, the worst first: the search is to be asked about them as
-/// well. None where all rows fit those places.
-std::vector<std::size_t> rows_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
-
-/// What all rows of a log say of the placements.
-struct RowsChecked {
-  std::vector<Placement> placements;   // those that the rows, or the contacts in the world, contradict are last
-  bool fits_badly = false;             // with every place
-  std::vector<Diagnosis> diagnoses{};  // why, where that was asked
-};
-/// REQUIRES a log, and poses where it has them.
-RowsChecked check_rows(const Problem& problem, const Observation& observed, bool explains, const Answer& answer);
 
 // With noise: what all rows of a log, or the readings where there is no log, make of the placements.
 
@@ -47,12 +30,5 @@ RowsWeighed weigh(const Problem& problem, const Observation& observed, bool expl
 /// were no more than the others; in doubt where something else explains the rows as well. `fits_badly`: what was found
 /// of the rows besides.
 void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly);
-
-// What fingers can't do.
-
-/// Takes the placements out of the answer that the fingers can't reach, or in which two would be in one another: where
-/// they can be is known if all of them are disks or jaws; two of any shape are followed along their log, from wherever
-/// in its extent a placement starts. With an outline that takes u: of readings nothing goes.
-void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer);
 
 }  // namespace rollfix::answer

@@ -65,11 +65,6 @@ struct Node {
   double share_in_mean() const { return (rows + 1) / (2 * rows); }
   /// Of the variance that this makes, so much less of what gathers is in the mean itself.
   double share_averaged() const { return (rows + 1) * (rows - 1) / (6 * rows * rows); }
-
-  /// The least variance that what a place makes of such a node can have, whatever the curvature there.
-  double least_variance(double tilt) const {
-    return (own.length * own.turn - own.both * own.both) / (tilt * tilt * own.length + 2 * tilt * own.both + own.turn);
-  }
 };
 
 /// A roll's rows as no more than a fixed number of nodes, however many rows there are. Where what gathers on the way is

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "roll/motion.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:

@@ -52,12 +52,6 @@ RigCase random_on(const Part& part, unsigned seed, bool encoder = false) {
   return random_rig(part, 0.04 * part.perimeter(), generator, encoder, 16);
 }
 
-void expect_scan(const HoldProblem& problem) {
-  const HoldAnswer answer = rollfix::solve(problem);
-  EXPECT_EQ(answer.status, Status::complete);
-  expect_same_places(answer, scanned(problem, 3000));
-}
-
 TEST(Rig, OnAnEllipseOnlyItsHalfTurnRemains) {
   for (unsigned seed = 0; seed < 3; ++seed) expect_found(random_on(ellipse(), seed), 2);
 }
@@ -72,16 +66,6 @@ TEST(Rig, ThePartsPosesAreThoseOfTheSimulation) {
   EXPECT_LT(std::hypot(found.first.x - one.first.x, found.first.y - one.first.y), 1e-6);
   EXPECT_LT(std::hypot(found.last.x - one.last.x, found.last.y - one.last.y), 1e-6);
   EXPECT_LT(std::abs(rollfix::nearest_angle(found.last.heading - one.last.heading)), 1e-6);
-}
-
-TEST(Rig, AScanOfAllPlacesFindsNoOtherAtOneInstant) {
-  const std::vector<Held> one{{1.3, 5.2, {0.2, 0.1, 0.4}}, {1.3, 5.2, {0.2, 0.1, 0.4}}};
-  expect_scan(held_at(ellipse(), 0.4, one));
-  expect_scan(held_at(cam(), 0.4, one));
-}
-
-TEST(Rig, AScanOfAllPlacesFindsNoOtherAtTwo) {
-  expect_scan(held_at(ellipse(), 0.4, {{1.3, 5.2, {0.2, 0.1, 0.4}}, {1.9, 5.9, {0.3, 0.1, 0.1}}}));
 }
 
 TEST(Rig, TheEncoderOfASimulatedWheelFits) { expect_found(random_on(cam(), 5, true), 1); }

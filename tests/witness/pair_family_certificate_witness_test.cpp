@@ -30,7 +30,7 @@ rollfix::Part any_part(std::mt19937_64& generator) {
 
 TEST(PairFamilyCertificateWitness, of_equal_rolls_is_not_refused) {
   std::mt19937_64 generator = test_generator();
-  const int count = test_count(8);
+  const int count = test_count(12);
   int proved = 0;
   int open = 0;
   std::size_t families = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "line_search.hpp"
 #include "locate/corner_sets.hpp"
 #include "outline/turn.hpp"
 #include "range.hpp"
@@ -242,7 +243,7 @@ void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairL
   halve(box, a_is_wider(box));
 }
 
-/// The side that f varies more along; one that can't be halved any more is left alone.
+/// Of one that is on many pieces yet that one, else the side that f varies more along.
 bool BoxSearch::a_is_wider(const Box& box) const {
   const PlaneCurve::Node& a = a_.node(box.a);
   const PlaneCurve::Node& b = b_.node(box.b);

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "box_search.hpp"
+#include "line_search.hpp"
 #include "locate/corner_sets.hpp"
 
 // Where curves run along each other: the other equations vanish all along the line that the guide leaves.
@@ -76,8 +76,8 @@ bool LineSearch::vanishes(const Place& place) const {
 /// What a residual that is 0 may be off.
 double LineSearch::residual_rounding(const Place& place) const {
   double rates = 0;
-  for (const double rate : place.free.all_rates()) rates += std::abs(rate);
-  for (const double rate : place.bound.all_rates()) rates += std::abs(rate);
+  for (const double rate : place.free.rates()) rates += std::abs(rate);
+  for (const double rate : place.bound.rates()) rates += std::abs(rate);
   return 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates;
 }
 
@@ -113,8 +113,8 @@ bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) con
 
 bool LineSearch::slopes_vanish(const Place& at) const {
   double scale = 1 / limits_.perimeter;
-  for (const double rate : at.free.all_rates()) scale += std::abs(rate);
-  for (const double rate : at.bound.all_rates()) scale += std::abs(rate * direction(at));
+  for (const double rate : at.free.rates()) scale += std::abs(rate);
+  for (const double rate : at.bound.rates()) scale += std::abs(rate * direction(at));
   for (std::size_t row = 0; row < free().rows(); ++row) {
     if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
   }

@@ -1,4 +1,4 @@
-#include "box_search.hpp"
+#include "line_search.hpp"
 
 #include <algorithm>
 #include <array>

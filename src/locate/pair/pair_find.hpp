@@ -71,7 +71,7 @@ struct PairFindings {
 
 /// What all steps of one search need to know.
 struct PairLimits {
-  double tolerance = 0;   // radians
+  double tolerance = 0;   // of every component: of rolls radians
   double perimeter = 0;   // P
   double same_place = 0;  // lengths below this are rounding errors
   bool facing = false;    // the last row is modulo 2 pi

@@ -14,8 +14,8 @@
 
 namespace rollfix::locating {
 
-/// A place on such a curve: of each component its value and its slope by x, and what rates the terms have that
-/// components are made of.
+/// A place on such a curve: of each component its value and its slope by x, and the rates by x of the terms that
+/// components are sums of. By their sizes what is 0 but for rounding is known.
 class CurvePoint {
  public:
   CurvePoint() = default;
@@ -27,12 +27,12 @@ class CurvePoint {
 
   double value(std::size_t row) const { return numbers_[row]; }
   double slope(std::size_t row) const { return numbers_[rows_ + row]; }
-  std::span<const double> all_rates() const { return {numbers_.data() + 2 * rows_, numbers_.size() - 2 * rows_}; }
+  std::span<const double> rates() const { return {numbers_.data() + 2 * rows_, numbers_.size() - 2 * rows_}; }
 
-  /// To be filled in: one of each row, and the rates.
-  double* values() { return numbers_.data(); }
-  double* slopes() { return numbers_.data() + rows_; }
-  double* rates() { return numbers_.data() + 2 * rows_; }
+  /// To be filled in.
+  std::span<double> values() { return {numbers_.data(), rows_}; }
+  std::span<double> slopes() { return {numbers_.data() + rows_, rows_}; }
+  std::span<double> rates() { return {numbers_.data() + 2 * rows_, numbers_.size() - 2 * rows_}; }
 
   /// A step along the tangents.
   void step(double by) {
@@ -41,8 +41,11 @@ class CurvePoint {
   }
 
  private:
+  // Of two readings and the facing equation: three of each.
+  static constexpr std::size_t kUsualNumbers = 9;
+
   std::size_t rows_ = 0;
-  boost::container::small_vector<double, 9> numbers_;
+  boost::container::small_vector<double, kUsualNumbers> numbers_;
 };
 
 /// One side of equations that are each a function of s less a function of t: a curve with a component for each
@@ -50,7 +53,9 @@ class CurvePoint {
 /// x is s, or at a corner an angle, s being a constant. Two of them are what BoxSearch looks for common points of.
 ///
 /// Who derives from it makes the tree (`make_on_piece`, `make_bounded`, `join`, `set_root`) and says how a node is
-/// halved, what the components are at x, and what bounds slopes have between two places.
+/// halved, what the components are at x, and what bounds slopes have between two places. REQUIRES pieces in order of s;
+/// components of about the size of angles in radians, for one tolerance and kTurnAccuracy are of all of them; and where
+/// two such curves run along each other, that what vanishes at 20 places of a piece vanishes in between.
 class PlaneCurve {
  public:
   static constexpr std::uint32_t kManyPieces = UINT32_MAX;
@@ -62,7 +67,7 @@ class PlaneCurve {
     std::int32_t left = -1;  // children; none yet
     std::int32_t right = -1;
     std::int32_t parent = -1;
-    std::uint32_t first = 0;  // for who derives: what is kept of the ends
+    std::uint32_t first = 0;  // both for who derives
     std::uint32_t last = 0;
     std::array<Range, 2> diagonals;  // of the first two components the sum and the difference
 
@@ -70,7 +75,8 @@ class PlaneCurve {
     double width() const { return hi - lo; }
   };
 
-  /// What is known of one component on a node. On one with many pieces its value alone.
+  /// What is known of one component on a node, which is +-g(x) + h(x) with a term g that all have, of monotone slope.
+  /// On a node with many pieces its value alone.
   struct Component {
     Range value;
     Range slope;
@@ -78,34 +84,34 @@ class PlaneCurve {
     double last = 0;
     double first_slope = 0;  // and its slopes
     double last_slope = 0;
-    double shared = 0;  // half of what the slope of the term that all components have changes by; it is monotone
-    Range own;          // half of what the other terms' slopes change by, at least and at most
+    double shared = 0;  // half of what the slope of +-g changes by
+    Range own;          // half of what the slope of h changes by, at least and at most; of a monotone one hull(0, half)
   };
 
-  /// x times one component and y times another one.
+  /// So many times one component and so many times another one.
   struct Combination {
-    double x;
-    double y;
+    double by_one;
+    double by_two;
     const Component& one;
     const Component& two;
 
-    double first() const { return x * one.first + y * two.first; }
-    double last() const { return x * one.last + y * two.last; }
+    double first() const { return by_one * one.first + by_two * two.first; }
+    double last() const { return by_one * one.last + by_two * two.last; }
     /// How far its slope gets from the middle.
     double slope_radius() const {
-      return std::abs(shared()) + std::abs(x) * one.own.size() + std::abs(y) * two.own.size();
+      return std::abs(shared()) + std::abs(by_one) * one.own.size() + std::abs(by_two) * two.own.size();
     }
     /// A term whose slope is monotone is on one side of its chord, by a quarter of the slope's change times the width
     /// at the most.
     Range value(double width) const {
       const double half = 0.5 * width;
-      const Range bend = hull(0, shared()) + x * one.own + y * two.own;
+      const Range bend = hull(0, shared()) + by_one * one.own + by_two * two.own;
       const Range ends = hull(first(), last());
       return {ends.least - half * bend.most, ends.most - half * bend.least};
     }
 
    private:
-    double shared() const { return x * one.shared + y * two.shared; }
+    double shared() const { return by_one * one.shared + by_two * two.shared; }
   };
 
   PlaneCurve(const PlaneCurve&) = delete;
@@ -163,9 +169,9 @@ class PlaneCurve {
   }
   /// A node of which no more is known than where its components are.
   std::int32_t make_bounded(Node node, const Range* values);
-  /// A node over these, the last one not included.
+  /// A node over these, the last one not included. REQUIRES one at least.
   std::int32_t join(std::int32_t from, std::int32_t to);
-  /// Gives a node its halves, whose bounds leave less than its own and its parents' did.
+  /// Gives a node its halves, and tightens its bounds and its ancestors' by theirs.
   void adopt(std::int32_t index, std::int32_t left, std::int32_t right);
 
  private:

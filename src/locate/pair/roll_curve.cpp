@@ -283,8 +283,9 @@ RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) c
 CurvePoint RollCurve::point(const Node& node, double x) const {
   const double nearest = std::clamp(x, node.lo, node.hi);
   CurvePoint point(nearest, rows(), contacts_);
-  evaluate([&](std::size_t c) { return contact_between(node, nearest, c).turning; }, point.values(), point.rates());
-  for (std::size_t row = 0; row < rows(); ++row) point.slopes()[row] = slope_of(point.rates(), row);
+  evaluate([&](std::size_t c) { return contact_between(node, nearest, c).turning; }, point.values().data(),
+           point.rates().data());
+  for (std::size_t row = 0; row < rows(); ++row) point.slopes()[row] = slope_of(point.rates().data(), row);
   if (x != nearest) point.step(x - nearest);
   point.x = x;
   return point;

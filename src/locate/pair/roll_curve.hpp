@@ -112,7 +112,7 @@ class RollCurve final : public PlaneCurve {
   Place place(const Node& node, double x, std::size_t row) const override;
   /// The rates are monotone.
   Range slope_between(const Node& node, const CurvePoint& one, const CurvePoint& two, std::size_t row) const override {
-    return slopes_of(pieces_[node.piece], one.all_rates().data(), two.all_rates().data(), row);
+    return slopes_of(pieces_[node.piece], one.rates().data(), two.rates().data(), row);
   }
 
  private:

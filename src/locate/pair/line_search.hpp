@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "box_side.hpp"
+#include "pair_find.hpp"
+#include "plane_curve.hpp"
+#include "range.hpp"
+
+namespace rollfix::locating {
+
+/// Where two curves run alongside each other in a box: one equation, the guide, is solved for one of the two contacts,
+/// which leaves a line through the box, and the other equations are searched along that line by branch and prune, as
+/// one finger's is. Finds touching curves, and curves that overlap: stretches.
+class LineSearch {
+ public:
+  LineSearch(const PairBoxSides& sides, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
+
+  /// False: no equation in this box can guide, or the tolerance is as wide as the box.
+  bool run();
+
+  /// Are the curves together in the middle of the line as well as on it?
+  bool may_overlap();
+
+ private:
+  /// A place on the line.
+  struct Place {
+    CurvePoint free;   // of the contact that the line is told by
+    CurvePoint bound;  // of the other one: the guide is 0
+  };
+  struct Stretch {
+    Place lo;
+    Place hi;
+    int depth = 0;
+    bool covered = false;  // see PairLimits
+  };
+  /// Bounds along a stretch of the line.
+  struct Bounds {
+    Range bound_x;               // of the other contact
+    Range direction;             // its change by the free contact's
+    std::vector<Range> slope;    // of each residual by the free contact
+    std::vector<double> within;  // the tolerance of each residual, for the guide may be off as well
+  };
+
+  bool choose_guide();
+  Place place(double x) const;
+  double bound_at(double value) const;
+  double residual(const Place& place, std::size_t row) const;
+  double residual_slope(const Place& place, std::size_t row) const;
+  double direction(const Place& place) const;
+  Bounds bounds(const Stretch& stretch) const;
+  bool turns_round(const Stretch& stretch) const;
+  bool clip(Stretch& stretch, double margin) const;
+  Place at_edge(const Stretch& stretch, double edge) const;
+  void decide(Stretch stretch);
+  std::size_t steepest(const Bounds& along) const;
+  bool take_flat(const Stretch& stretch, const Bounds& along, bool is_point);
+  bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
+  bool is_apart_midway() const;
+  bool slopes_vanish(const Place& at) const;
+  bool vanishes(const Place& place) const;
+  double residual_rounding(const Place& place) const;
+  Place turn_between(const Place& one, const Place& two) const;
+  void take_overlap(const Stretch& whole, std::vector<Place> samples);
+  void add_beyond(const Place& lo, const Place& hi);
+  void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);
+  void add_piece(const Place& lo, const Place& hi, const Range& y);
+  bool passes_by(const Place& lo, const Place& hi, const Range& y) const;
+  Polygon within_row(const Polygon& polygon, const Place& at, std::size_t row, double most) const;
+  Polygon narrow(const Polygon& band, const Place& lo, const Place& hi) const;
+  Polygon band(const Place& lo, const Place& hi, double bend) const;
+  void add_root(const Place& place, int sign, bool exact);
+  Place solve(std::size_t row, double level, const Place& from, const Place& to) const;
+  PairPoint contacts(const Place& place) const;
+  PairPoint contacts(const Vec2& at) const;
+  bool is_inside(const Place& place) const;
+  void split(const Stretch& stretch);
+
+  const BoxSide& free() const { return free_is_a_ ? sides_.a : sides_.b; }
+  const BoxSide& bound() const { return free_is_a_ ? sides_.b : sides_.a; }
+  /// 0 where the bound contact pivots, for then `off` is an angle.
+  double length_of(double off) const { return bound().pivots() ? 0 : off; }
+
+  PairBoxSides sides_;
+  PairLimits limits_;
+  std::size_t& budget_;
+  PairFindings& findings_;
+  bool free_is_a_ = true;
+  std::size_t guide_ = 0;
+  double margin_ = 0;  // how far the bound contact may be off the line within the tolerance
+  std::vector<Stretch> waiting_;
+};
+
+}  // namespace rollfix::locating
