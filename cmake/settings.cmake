@@ -10,15 +10,16 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-# rollfix_rooms(TARGET): in a unity build (see CMakePresets.json) the files of a folder are compiled together, and so are all those
-# of folders with few: half of what these take to compile are the headers.
-set(ROLLFIX_FEW 3)
+# rollfix_rooms(TARGET [FEW]): in a unity build (see CMakePresets.json) the files of a folder are compiled together, and so are all
+# those of folders with no more than FEW: half of what these take to compile are the headers. Not of what has to be fast: the compiler
+# inlines less in a larger unit.
 set(ROLLFIX_COMPILED_ALONE "" CACHE STRING "Files that even then are compiled by themselves, as a regular expression")
 set(ROLLFIX_TOGETHER 0 CACHE STRING "Most files of a folder that are compiled together; 0: all. Fewer take less memory")
 if(ROLLFIX_TOGETHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(--param=ggc-min-expand=10 --param=ggc-min-heapsize=32768)  # it gathers its garbage sooner
 endif()
 function(rollfix_rooms target)
+  set(few ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")
@@ -35,7 +36,7 @@ function(rollfix_rooms target)
   foreach(room IN LISTS rooms)
     list(LENGTH files_of_${room} count)
     set(group ${room})
-    if(NOT ROLLFIX_TOGETHER AND count LESS_EQUAL ROLLFIX_FEW)
+    if(few AND NOT ROLLFIX_TOGETHER AND count LESS_EQUAL few)
       set(group small)
     endif()
     set(number 0)

@@ -4,8 +4,8 @@
 #include "locate/pair/box_search.hpp"
 #include "locate/pair/components.hpp"
 #include "locate/pair/pair_find.hpp"
-#include "locate/pair/patch_search.hpp"
 #include "locate/pair/roll_curve.hpp"
+#include "patch_search.hpp"
 #include "searches.hpp"
 
 // Notation:

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-#include "locate/corner_sets.hpp"
-#include "pair_find.hpp"
-#include "roll_curve.hpp"
+#include "corner_sets.hpp"
+#include "locate/pair/pair_find.hpp"
+#include "locate/pair/roll_curve.hpp"
 
 namespace rollfix::locating {
 
