@@ -25,7 +25,7 @@ void ask(const HoldProblem& problem, Measured& measured) {
 
 TEST(HoldCertificateWitness, random_rigs_are_proved) {
   Measured plain, encoder, noisy;
-  for (int k = 0; k < test_count(8); ++k) {
+  for (int k = 0; k < test_count(5); ++k) {
     SCOPED_TRACE("question " + std::to_string(k));
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(k) + 9000);
     const HoldProblem problem = random_rig_question(k, generator);
@@ -38,7 +38,7 @@ TEST(HoldCertificateWitness, random_rigs_are_proved) {
 
 TEST(HoldCertificateWitness, random_holds_are_proved) {
   Measured placed, headings, noisy;
-  for (int k = 0; k < test_count(3); ++k) {
+  for (int k = 0; k < test_count(2); ++k) {
     SCOPED_TRACE("question " + std::to_string(k));
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(k) + 9500);
     const HoldProblem problem = random_hold_question(k, generator);
