@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -277,18 +278,48 @@ std::vector<PairPeak> from_everywhere(const PairModel& model, std::vector<PairPe
   return chosen;
 }
 
+/// Less than so many standard deviations from another one: squared.
+bool is_near(const PairPeak& peak, const PairPeak& other, double squared) {
+  if (other.start.arc != peak.start.arc) return false;
+  const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
+  return off.dot(peak.score.information * off) < squared &&
+         off.norm() < 1e-3 * (peak.start.arc[0]->hi() - peak.start.arc[0]->lo());
+}
+
+/// Of a part that looks the same from several places, what a peak finds at one of them is at the others as well: climbs
+/// to these may have ended below.
+void add_those_alike(const PairModel& model, const std::vector<PairNode>& nodes, std::vector<PairPeak>& peaks) {
+  const std::size_t folds = model.boundary[0]->folds();
+  if (peaks.empty() || folds == 1 || model.boundary[1]->folds() != folds) return;
+  const double best = deviance(peaks.front().score);
+  const double scale = std::max(1.0, peaks.front().score.cost / static_cast<double>(nodes.size()));
+  const std::vector<PairPeak> found = peaks;
+  for (const PairPeak& peak : found) {
+    if (deviance(peak.score) > best + kWorthTrying * scale) continue;
+    for (std::size_t fold = 1; fold < folds && peaks.size() < kMostPeaks; ++fold) {
+      PairPeak other = peak;
+      for (const std::size_t finger : {0U, 1U}) {
+        std::tie(other.start.arc[finger], other.start.w[finger]) =
+            model.boundary[finger]->alike(*peak.start.arc[finger], peak.start.w[finger], fold);
+      }
+      const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const PairPeak& one) {
+        return is_near(other, one, 1) && deviance(one.score) <= deviance(peak.score) + 1;
+      });
+      if (is_known) continue;
+      other.score = score_of(model, other.start, nodes, peak.score.errors, 3);
+      peaks.push_back(other);
+    }
+  }
+}
+
 /// Of peaks, the best first, those that may be the answer, each once. `rows`: by which they were compared.
 std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
   std::vector<PairPeak> found;
   for (const PairPeak& peak : peaks) {
     const double scale = std::max(1.0, peaks.front().score.cost / rows);
     if (deviance(peak.score) > deviance(peaks.front().score) + kHopeless * scale) break;
-    const bool is_known = std::any_of(found.begin(), found.end(), [&](const PairPeak& other) {
-      if (other.start.arc != peak.start.arc) return false;
-      const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
-      return off.dot(peak.score.information * off) < 1e-2 &&
-             off.norm() < 1e-3 * (peak.start.arc[0]->hi() - peak.start.arc[0]->lo());
-    });
+    const bool is_known =
+        std::any_of(found.begin(), found.end(), [&](const PairPeak& other) { return is_near(peak, other, 1e-2); });
     if (!is_known) found.push_back(peak);
   }
   return found;
@@ -351,6 +382,10 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     }
   }
   std::sort(found.begin(), found.end(), by_deviance);
+  if (!on_trial) {
+    add_those_alike(model, nodes, found);
+    std::sort(found.begin(), found.end(), by_deviance);
+  }
   return found;
 }
 
