@@ -6,8 +6,8 @@
 
 #include "free_roll.hpp"
 #include "random.hpp"
-#include "rollfix/error.hpp"
 #include "rollfix/part.hpp"
+#include "rollfix/rolling.hpp"
 #include "rollfix/solve.hpp"
 
 namespace pair_symmetry_test {
@@ -36,14 +36,17 @@ bool holds(const Answer& answer, double s, double t) {
 }  // namespace
 
 TEST(PairSymmetry, of_equal_sides_leaves_the_true_place_among_those_alike) {
+  int decided = 0;
   for (const int sides : {6, 12, 24}) {
     const Part part = rollfix::load_part("gallery:polygon,n=" + std::to_string(sides));
     for (int k = 1; k <= test_count(6); ++k) {
       const Answer answer = answer_on(part, static_cast<std::uint64_t>(k));
       if (answer.verdict.name == rollfix::Verdict::undecided) continue;
+      ++decided;
       EXPECT_TRUE(holds(answer, 0.3, 3.4)) << sides << " sides, seed " << k << ": " << answer.verdict.text();
     }
   }
+  EXPECT_GT(decided, 3 * test_count(6) / 2);
 }
 
 }  // namespace pair_symmetry_test

@@ -85,7 +85,7 @@ TEST(PairCornerCentres, of_a_disk_and_a_square_fingertip_contradict_nothing) {
   const Part part = rollfix::load_part("gallery:ellipse");
   const double P = part.perimeter();
   const rollfix::Noise noise{.contact = 0.001 * P, .angle = 0.001, .position = 0.0005 * P};
-  for (int k = 0; k < test_count(6); ++k) {
+  for (int k = 0; k < test_count(30); ++k) {
     const auto seed = static_cast<std::uint64_t>(k) + 1;
     EXPECT_TRUE(is_honest(drawn_on(part, seed, 60, noise, corner_fingers::square(0.04 * P).finger()))) << seed;
   }
