@@ -57,13 +57,15 @@ TEST(PairClosedForms, orientations_tell_it_as_well_as_the_mean_of_both_is_known)
   expect_place_of_b(noise, kAcross * std::sqrt(by_angles(noise.angle)));
 }
 
-TEST(PairClosedForms, a_finger_that_rolled_back_along_a_wall_began_anywhere_but_so_near_its_beginning) {
+TEST(PairClosedForms, a_finger_that_rolled_along_a_wall_began_anywhere_but_so_near_its_end) {
   const Part wall(shapes::polygon({{0, 0}, {10, 0}}, false));
-  rollfix::Problem problem{wall, {{0.5, -1, 0}, {1, -2, 0}}, {}, Noise{0.01, 0.01}};
-  problem.prior = rollfix::Prior{5, 0.05};
-  const rollfix::Placement placement = rollfix::solve(problem).placements.at(0);
-  EXPECT_NEAR(placement.mean[1], (2 + 10) / 2.0, 0.02);
-  EXPECT_NEAR(placement.sd[1], (10 - 2) / std::sqrt(12.0), 0.02);
+  for (const double length : {-3.0, -2.0, -1.0, 1.0, 2.5}) {
+    rollfix::Problem problem{wall, {{0.5, length / 2, 0}, {1, length, 0}}, {}, Noise{0.01, 0.01}};
+    problem.prior = rollfix::Prior{5, 0.05};
+    const rollfix::Placement placement = rollfix::solve(problem).placements.at(0);
+    EXPECT_NEAR(placement.mean[1], (10 - length) / 2, 0.02) << length;
+    EXPECT_NEAR(placement.sd[1], (10 - std::abs(length)) / std::sqrt(12.0), 0.01) << length;
+  }
 }
 
 TEST(PairClosedForms, a_heading_told_by_normals_and_by_the_line_between_both_contacts_is_as_sure_as_their_best_mean) {

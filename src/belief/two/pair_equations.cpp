@@ -196,8 +196,10 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     variance += felt.variance - felt.pivot;
     pivots_alike += alike[finger] * pivot;
     if (!model.places.closed) {
-      const double off = std::max({0.0, -s, s - errors.perimeter()});
-      rows.beyond += off * off / errors.contact_variance();
+      const double end = s < 0.5 * errors.perimeter() ? -1 : 1;
+      const double past = end < 0 ? -s : s - errors.perimeter();
+      rows.past[i] = past / errors.contact_sd();
+      rows.past_by_start[i] = end * at.place[finger].slope / errors.contact_sd();
     }
   }
   if (errors.absolute()) {

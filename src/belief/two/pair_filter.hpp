@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -85,6 +86,8 @@ struct PairScore {
   PairShared errors = PairShared::Zero();
   PairSharedCovariance covariance = PairSharedCovariance::Zero();
   Eigen::Matrix<double, 5, 2> errors_by_start = Eigen::Matrix<double, 5, 2>::Zero();
+  // How near each finger comes to an open outline's ends, standard deviations; negative: so far past one of them.
+  Eigen::Vector2d room = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
 
   double log_likelihood() const { return -0.5 * (cost + log_volume); }
 };
@@ -140,7 +143,10 @@ struct PairEquations {
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
   Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
   Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, of fingers at corners
-  double beyond = 0;  // squared distance beyond an open outline's ends, in standard deviations
+  // An open outline's: how far each contact is past the nearer end, in standard deviations, negative where it is on the
+  // outline; and that by w.
+  Eigen::Vector2d past = Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity());
+  Eigen::Vector2d past_by_start = Eigen::Vector2d::Zero();
 };
 
 /// Where the first contacts are.

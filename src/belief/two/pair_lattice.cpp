@@ -121,6 +121,7 @@ class Spreading {
   std::vector<Known> known_in(const PairRegion& region) const;
   /// Peaks in a square that its quadratic does not foretell are sharper than it is.
   bool foretells_peaks(const PairRegion& region, const PairLeaf& leaf) const;
+  double rate_at_end(const PairRegion& region, const PairLeaf& leaf) const;
   bool look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves);
   void weigh(const PairRegion& region, PairLeaf& leaf) const;
   double log_prior(const PairStart& start) const;
@@ -205,6 +206,20 @@ bool Spreading::foretells_peaks(const PairRegion& region, const PairLeaf& leaf) 
   });
 }
 
+/// How fast the distance changes where a square leads a contact past an open outline's end, though its middle does not:
+/// standard deviations per length of y. 0 where it does not.
+double Spreading::rate_at_end(const PairRegion& region, const PairLeaf& leaf) const {
+  double most = 0;
+  for (const std::size_t finger : {0U, 1U}) {
+    const auto i = static_cast<Eigen::Index>(finger);
+    const double slope = leaf.start.arc[finger]->at(leaf.start.w[finger]).slope;
+    const double rate = region.frame.row(i).norm() * slope / model_.errors->contact_sd();
+    const double reach = 0.5 * leaf.size * region.frame.row(i).lpNorm<1>() * slope / model_.errors->contact_sd();
+    if (leaf.score.room[i] > 0 && leaf.score.room[i] < reach) most = std::max(most, rate);
+  }
+  return most;
+}
+
 /// True where the density of a square, or of some part of it, is not negligible.
 bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves) {
   const Eigen::Vector2d by = region.frame * task.centre;
@@ -219,7 +234,7 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   const Eigen::Matrix2d information = region.frame.transpose() * leaf.score.information * region.frame;
   const double trace = information.trace();
   const double gap = std::hypot(information(0, 0) - information(1, 1), 2 * information(0, 1));
-  const double rate = std::sqrt(std::max(0.0, 0.5 * (trace + gap)));
+  const double rate = std::max(std::sqrt(std::max(0.0, 0.5 * (trace + gap))), rate_at_end(region, leaf));
   const double reach = kPairRateSafety * rate * task.size * std::sqrt(0.5);
   const double distance = std::max(0.0, std::sqrt(leaf.score.cost) - reach);
   const double most = -0.5 * (std::min(leaf.score.cost, distance * distance) + leaf.score.log_volume);
