@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "belief/two/pair_density.hpp"
@@ -94,6 +95,7 @@ class Spreading {
         density_(density) {}
 
   void from(const PairPeak& peak);
+  void from(const PairStart& start);
   /// The peaks, those first that have the widest squares: these suit a ridge that leads to a sharper peak, and that
   /// one's own, which are not turned along it, do not.
   std::vector<PairPeak> widest_first() const;
@@ -117,6 +119,8 @@ class Spreading {
     double log_likelihood;
   };
 
+  /// By a region that spread already.
+  bool is_taken(const PairStart& start) const;
   bool spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares);
   std::vector<Known> known_in(const PairRegion& region) const;
   /// Peaks in a square that its quadratic does not foretell are sharper than it is.
@@ -301,9 +305,7 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
         }
       }
       const PairStart start = moved(region.origin, by);
-      const bool is_taken = std::any_of(density_.regions.begin(), density_.regions.end(),
-                                        [&](const PairRegion& other) { return other.covers(start); });
-      if (!is_taken) tasks.push_back({next, 1, 0, score.errors, at, score.errors_by_start});
+      if (!is_taken(start)) tasks.push_back({next, 1, 0, score.errors, at, score.errors_by_start});
     }
   }
   return true;
@@ -334,12 +336,18 @@ std::vector<PairPeak> Spreading::widest_first() const {
   return sorted;
 }
 
+bool Spreading::is_taken(const PairStart& start) const {
+  return std::any_of(density_.regions.begin(), density_.regions.end(),
+                     [&](const PairRegion& region) { return region.covers(start); });
+}
+
+void Spreading::from(const PairStart& start) {
+  if (!is_taken(start)) from({start, score_of(model_, start, nodes_, PairShared::Zero(), kPasses)});
+}
+
 void Spreading::from(const PairPeak& peak) {
   // One that is off its hill's top may still lead to it.
-  if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair) return;
-  for (const PairRegion& region : density_.regions) {
-    if (region.covers(peak.start)) return;
-  }
+  if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair || is_taken(peak.start)) return;
   // No region takes what others need.
   limit_ = hypotheses_ + (most_hypotheses_ - std::min(hypotheses_, most_hypotheses_)) / 2;
   double factor = 1;
@@ -396,6 +404,27 @@ bool PairRegion::covers(const PairStart& start) const {
   return by && leaves_of.count(square_key(back * *by)) > 0;
 }
 
+namespace {
+
+/// Of a part that looks the same from several places, what is found at one of them is at the others as well: climbs to
+/// these may have ended below.
+void add_those_alike(const PairModel& model, const PairDensity& density, Spreading& spreading) {
+  const std::size_t folds = model.boundary[0]->folds();
+  if (model.boundary[1]->folds() != folds) return;
+  for (std::size_t k = 0; k < density.regions.size(); ++k) {
+    for (std::size_t fold = 1; fold < folds; ++fold) {
+      PairStart start = density.regions[k].origin;
+      for (const std::size_t finger : {0U, 1U}) {
+        std::tie(start.arc[finger], start.w[finger]) =
+            model.boundary[finger]->alike(*start.arc[finger], start.w[finger], fold);
+      }
+      spreading.from(start);
+    }
+  }
+}
+
+}  // namespace
+
 PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& peaks, const std::vector<PairNode>& nodes,
                          double excess, const std::array<double, 2>& corner_length) {
   PairDensity density;
@@ -406,10 +435,9 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
   std::size_t next = 0;
   while (next < density.regions.size()) {
     const std::vector<PairStart> beyond = density.regions[next++].beyond;
-    for (const PairStart& start : beyond) {
-      spreading.from({start, score_of(model, start, nodes, PairShared::Zero(), 3)});
-    }
+    for (const PairStart& start : beyond) spreading.from(start);
   }
+  if (model.effort == Effort::whole) add_those_alike(model, density, spreading);
   const double total = spreading.total();
   // Next to nothing about any peak, as of rows that contradict the noise by far: nothing is known then.
   if (!(total > 0)) {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -226,10 +226,9 @@ std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candi
   return peaks;
 }
 
-/// The candidates that no neighbour of theirs surpasses.
+/// The candidates that no neighbour of theirs surpasses. `peaks`: of each candidate.
 std::vector<PairPeak> best_of_neighbours(const PairModel& model, const PairCandidates& candidates,
-                                         const std::vector<PairNode>& nodes) {
-  const std::vector<PairPeak> peaks = scored(model, candidates, nodes);
+                                         const std::vector<PairPeak>& peaks) {
   const auto key = [](std::uint32_t i, std::uint32_t j) { return (static_cast<std::uint64_t>(i) << 32) | j; };
   std::unordered_map<std::uint64_t, std::size_t> index;
   for (std::size_t k = 0; k < peaks.size(); ++k) index[key(candidates.squares[k].i, candidates.squares[k].j)] = k;
@@ -286,32 +285,6 @@ bool is_near(const PairPeak& peak, const PairPeak& other, double squared) {
          off.norm() < 1e-3 * (peak.start.arc[0]->hi() - peak.start.arc[0]->lo());
 }
 
-/// Of a part that looks the same from several places, what a peak finds at one of them is at the others as well: climbs
-/// to these may have ended below.
-void add_those_alike(const PairModel& model, const std::vector<PairNode>& nodes, std::vector<PairPeak>& peaks) {
-  const std::size_t folds = model.boundary[0]->folds();
-  if (peaks.empty() || folds == 1 || model.boundary[1]->folds() != folds) return;
-  const double best = deviance(peaks.front().score);
-  const double scale = std::max(1.0, peaks.front().score.cost / static_cast<double>(nodes.size()));
-  const std::vector<PairPeak> found = peaks;
-  for (const PairPeak& peak : found) {
-    if (deviance(peak.score) > best + kWorthTrying * scale) continue;
-    for (std::size_t fold = 1; fold < folds && peaks.size() < kMostPeaks; ++fold) {
-      PairPeak other = peak;
-      for (const std::size_t finger : {0U, 1U}) {
-        std::tie(other.start.arc[finger], other.start.w[finger]) =
-            model.boundary[finger]->alike(*peak.start.arc[finger], peak.start.w[finger], fold);
-      }
-      const bool is_known = std::any_of(peaks.begin(), peaks.end(), [&](const PairPeak& one) {
-        return is_near(other, one, 1) && deviance(one.score) <= deviance(peak.score) + 1;
-      });
-      if (is_known) continue;
-      other.score = score_of(model, other.start, nodes, peak.score.errors, 3);
-      peaks.push_back(other);
-    }
-  }
-}
-
 /// Of peaks, the best first, those that may be the answer, each once. `rows`: by which they were compared.
 std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
   std::vector<PairPeak> found;
@@ -325,21 +298,49 @@ std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) 
   return found;
 }
 
-/// The candidates' peaks by few of the rows, the best first.
-std::vector<PairPeak> peaks_by_few(const PairModel& model, const PairCandidates& candidates,
-                                   const std::vector<PairNode>& nodes) {
-  const std::vector<PairNode> few = some_of(nodes, kFewRows);
-  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, some_of(nodes, kVeryFewRows));
+/// The peaks by some rows that climbs from the best of neighbours lead to, the best first.
+std::vector<PairPeak> climbed(const PairModel& model, const PairCandidates& candidates,
+                              const std::vector<PairPeak>& scores, const std::vector<PairNode>& nodes) {
+  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, scores);
   std::sort(chosen.begin(), chosen.end(), by_deviance);
   const bool on_trial = model.effort != Effort::whole;
   chosen = from_everywhere(model, std::move(chosen), on_trial ? kMostStartsOnTrial : kMostStarts);
   for (PairPeak& peak : chosen) {
-    peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
-    peak = climb(model, peak, few, kCoarseSteps);
+    peak.score = score_of(model, peak.start, nodes, PairShared::Zero(), 1);
+    peak = climb(model, peak, nodes, kCoarseSteps);
   }
   std::sort(chosen.begin(), chosen.end(), by_deviance);
-  return from_everywhere(model, distinct(chosen, static_cast<double>(few.size())),
+  return from_everywhere(model, distinct(chosen, static_cast<double>(nodes.size())),
                          on_trial ? kMostPeaksOnTrial : kMostPeaks);
+}
+
+/// The candidates' peaks: by few of the rows and, as these leave plateaus where the instant at which a finger passes a
+/// corner tells a place, by all.
+std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& candidates,
+                               const std::vector<PairNode>& nodes) {
+  std::vector<PairPeak> scores = scored(model, candidates, some_of(nodes, kVeryFewRows));
+  std::vector<PairPeak> found = climbed(model, candidates, scores, some_of(nodes, kFewRows));
+  const bool has_plateaus = model.felt[0]->has_corners() && nodes.size() > kVeryFewRows;
+  if (model.effort != Effort::whole || !has_plateaus) return found;
+  double best = std::numeric_limits<double>::infinity();
+  double cost = 0;
+  for (const PairPeak& each : scores) {
+    if (each.start.arc[0] == nullptr || deviance(each.score) >= best) continue;
+    best = deviance(each.score);
+    cost = each.score.cost;
+  }
+  const double most = best + kHopeless * std::max(1.0, cost / static_cast<double>(kVeryFewRows));
+  for (PairPeak& each : scores) {
+    if (each.start.arc[0] == nullptr) continue;
+    if (deviance(each.score) > most) {
+      each.start.arc[0] = nullptr;
+    } else {
+      each.score = score_of(model, each.start, nodes, PairShared::Zero(), 1);
+    }
+  }
+  const std::vector<PairPeak> by_all = climbed(model, candidates, scores, nodes);
+  found.insert(found.end(), by_all.begin(), by_all.end());
+  return found;
 }
 
 }  // namespace
@@ -359,10 +360,10 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
                                  const std::vector<PairNode>& nodes) {
   // What the centres tell is so sharp that it leads astray from far away; but the normals alone leave families of
   // places on straight sides, whose best is anywhere. So places are looked for without the centres and with them.
-  std::vector<PairPeak> found = peaks_by_few(model, candidates, without_centres(nodes));
+  std::vector<PairPeak> found = peaks_of(model, candidates, without_centres(nodes));
   const bool has_centres = nodes.back().centres.has_value();
   if (has_centres && model.path != nullptr) {
-    const std::vector<PairPeak> sharp = peaks_by_few(model, candidates, nodes);
+    const std::vector<PairPeak> sharp = peaks_of(model, candidates, nodes);
     found.insert(found.end(), sharp.begin(), sharp.end());
   }
   const bool on_trial = model.effort != Effort::whole;
@@ -372,6 +373,7 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
       peak = climb(model, peak, nodes, kFineSteps);
     }
     std::sort(found.begin(), found.end(), by_deviance);
+    found = distinct(found, static_cast<double>(nodes.size()));
   }
   const std::size_t searched = on_trial ? kMostSearchedOnTrial : found.size();
   for (std::size_t k = 0; k < std::min(searched, found.size()); ++k) {
@@ -382,10 +384,6 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     }
   }
   std::sort(found.begin(), found.end(), by_deviance);
-  if (!on_trial) {
-    add_those_alike(model, nodes, found);
-    std::sort(found.begin(), found.end(), by_deviance);
-  }
   return found;
 }
 
