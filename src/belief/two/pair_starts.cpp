@@ -36,6 +36,8 @@ constexpr int kFineSteps = 8;
 // Candidates whose deviance with few rows is further above the best one's than this, in units of how badly the best
 // fits itself, can't be the answer.
 constexpr double kHopeless = 120;
+// Squares that are wider than so many standard deviations of a contact have several plateaus in them.
+constexpr double kWide = 6;
 constexpr std::size_t kMostStarts = 400;
 constexpr std::size_t kMostPeaks = 200;
 // Of as many, half are the best there are; the others come from wherever they can, of so many parts of a perimeter: a
@@ -124,6 +126,11 @@ std::vector<PairNode> without_centres(std::vector<PairNode> nodes) {
 
 bool by_deviance(const PairPeak& one, const PairPeak& other) { return deviance(one.score) < deviance(other.score); }
 
+/// Sharper than the noise of the facing.
+bool is_felt(const PairModel& model, const Corner& corner) {
+  return corner.turn > kFarthest * std::sqrt(model.errors->facing_variance());
+}
+
 /// Where one first contact may be in a cell: a place on the boundary, or a corner at which the finger has pivoted by up
 /// to `pivot` from w on.
 struct Stand {
@@ -151,11 +158,29 @@ std::optional<Stand> stand_at(const PairModel& model, std::size_t finger, double
   return std::nullopt;
 }
 
-/// The places of a finger in the cells of the candidates' grid that are in use: the middle of each, and its corners.
+/// Places s of a finger from which a node is at a corner, s + L = corner, in order. Between two of them the likelihood is
+/// about constant; at each it jumps, or is sharp.
+std::vector<double> passings_of(const PairModel& model, std::size_t finger, const std::vector<PairNode>& nodes) {
+  std::vector<double> passings;
+  for (const Corner& corner : model.part->corners()) {
+    if (!is_felt(model, corner)) continue;
+    for (const PairNode& node : nodes) {
+      if (!node.is_facing) passings.push_back(model.places.on_first_lap(corner.s - node.length[finger]));
+    }
+  }
+  std::sort(passings.begin(), passings.end());
+  return passings;
+}
+
+/// The places of a finger in the cells of the candidates' grid that are in use: the middle of each, or of each interval
+/// between passings in it, and its corners.
 class Stands {
  public:
-  Stands(const PairModel& model, std::size_t finger, std::uint32_t cells)
-      : model_(model), finger_(finger), step_(model.perimeter() / static_cast<double>(cells)) {}
+  Stands(const PairModel& model, std::size_t finger, std::uint32_t cells, std::vector<double> passings)
+      : model_(model),
+        finger_(finger),
+        step_(model.perimeter() / static_cast<double>(cells)),
+        passings_(std::move(passings)) {}
 
   const std::vector<Stand>& in(std::uint32_t cell) {
     const auto [found, is_new] = of_cell_.try_emplace(cell);
@@ -166,9 +191,11 @@ class Stands {
  private:
   void add_places(std::uint32_t cell, std::vector<Stand>& places) const {
     const double from = static_cast<double>(cell) * step_;
-    if (const auto middle = stand_at(model_, finger_, from + 0.5 * step_)) places.push_back(*middle);
+    for (const double s : middles_in(from)) {
+      if (const auto middle = stand_at(model_, finger_, s)) places.push_back(*middle);
+    }
     for (const Corner& corner : model_.part->corners()) {
-      if (corner.s < from || corner.s >= from + step_ || !is_felt(corner)) continue;
+      if (corner.s < from || corner.s >= from + step_ || !is_felt(model_, corner)) continue;
       auto pivot = stand_at(model_, finger_, corner.s - kBeforeCorner * model_.perimeter());
       if (!pivot) continue;
       pivot->pivot = corner.turn;
@@ -176,13 +203,29 @@ class Stands {
     }
   }
 
-  bool is_felt(const Corner& corner) const {
-    return corner.turn > kFarthest * std::sqrt(model_.errors->facing_variance());
+  /// Of the cell from here on: the middle of each group of passings that a contact's error can't tell apart, and of each
+  /// gap between two.
+  std::vector<double> middles_in(double from) const {
+    const double apart = kWide * model_.errors->contact_sd();
+    std::vector<double> middles;
+    double begin = from;
+    auto next = std::lower_bound(passings_.begin(), passings_.end(), from);
+    while (next != passings_.end() && *next < from + step_) {
+      const double first = *next;
+      double last = first;
+      while (++next != passings_.end() && *next < from + step_ && *next - last < apart) last = *next;
+      middles.push_back(0.5 * (begin + first));
+      middles.push_back(0.5 * (first + last));
+      begin = last;
+    }
+    middles.push_back(0.5 * (begin + from + step_));
+    return middles;
   }
 
   const PairModel& model_;
   std::size_t finger_;
   double step_;
+  std::vector<double> passings_;
   std::unordered_map<std::uint32_t, std::vector<Stand>> of_cell_;
 };
 
@@ -210,8 +253,8 @@ PairStart faced(const PairModel& model, const std::array<Stand, 2>& stands, cons
 /// The candidates by few rows: no arc where a finger can't be there.
 std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candidates,
                              const std::vector<PairNode>& nodes) {
-  Stands of_a(model, 0, candidates.cells);
-  Stands of_b(model, 1, candidates.cells);
+  Stands of_a(model, 0, candidates.cells, {});
+  Stands of_b(model, 1, candidates.cells, {});
   std::vector<PairPeak> peaks(candidates.squares.size());
   for (std::size_t k = 0; k < peaks.size(); ++k) {
     PairPeak& best = peaks[k];
@@ -220,6 +263,23 @@ std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candi
         const PairStart start = faced(model, {a, b}, nodes.front());
         const PairScore score = score_of(model, start, nodes, PairShared::Zero(), 1);
         if (best.start.arc[0] == nullptr || deviance(score) < deviance(best.score)) best = {start, score};
+      }
+    }
+  }
+  return peaks;
+}
+
+/// The places in candidates' squares that are wide beside a contact's error: from each interval between passings.
+std::vector<PairPeak> scored_within(const PairModel& model, const PairCandidates& candidates,
+                                    const std::vector<PairNode>& nodes) {
+  Stands of_a(model, 0, candidates.cells, passings_of(model, 0, nodes));
+  Stands of_b(model, 1, candidates.cells, passings_of(model, 1, nodes));
+  std::vector<PairPeak> peaks;
+  for (const PairSquare& square : candidates.squares) {
+    for (const Stand& a : of_a.in(square.i)) {
+      for (const Stand& b : of_b.in(square.j)) {
+        const PairStart start = faced(model, {a, b}, nodes.front());
+        peaks.push_back({start, score_of(model, start, nodes, PairShared::Zero(), 1)});
       }
     }
   }
@@ -298,10 +358,9 @@ std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) 
   return found;
 }
 
-/// The peaks by some rows that climbs from the best of neighbours lead to, the best first.
-std::vector<PairPeak> climbed(const PairModel& model, const PairCandidates& candidates,
-                              const std::vector<PairPeak>& scores, const std::vector<PairNode>& nodes) {
-  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, scores);
+/// The peaks by some rows that climbs from the best of these places lead to, the best first.
+std::vector<PairPeak> climbed(const PairModel& model, std::vector<PairPeak> chosen,
+                              const std::vector<PairNode>& nodes) {
   std::sort(chosen.begin(), chosen.end(), by_deviance);
   const bool on_trial = model.effort != Effort::whole;
   chosen = from_everywhere(model, std::move(chosen), on_trial ? kMostStartsOnTrial : kMostStarts);
@@ -319,9 +378,15 @@ std::vector<PairPeak> climbed(const PairModel& model, const PairCandidates& cand
 std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& candidates,
                                const std::vector<PairNode>& nodes) {
   std::vector<PairPeak> scores = scored(model, candidates, some_of(nodes, kVeryFewRows));
-  std::vector<PairPeak> found = climbed(model, candidates, scores, some_of(nodes, kFewRows));
+  std::vector<PairPeak> found = climbed(model, best_of_neighbours(model, candidates, scores), some_of(nodes, kFewRows));
   const bool has_plateaus = model.felt[0]->has_corners() && nodes.size() > kVeryFewRows;
   if (model.effort != Effort::whole || !has_plateaus) return found;
+  const double width = model.perimeter() / static_cast<double>(candidates.cells);
+  if (width > kWide * model.errors->contact_sd()) {
+    const std::vector<PairPeak> within = climbed(model, scored_within(model, candidates, nodes), nodes);
+    found.insert(found.end(), within.begin(), within.end());
+    return found;
+  }
   double best = std::numeric_limits<double>::infinity();
   double cost = 0;
   for (const PairPeak& each : scores) {
@@ -338,7 +403,7 @@ std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& can
       each.score = score_of(model, each.start, nodes, PairShared::Zero(), 1);
     }
   }
-  const std::vector<PairPeak> by_all = climbed(model, candidates, scores, nodes);
+  const std::vector<PairPeak> by_all = climbed(model, best_of_neighbours(model, candidates, scores), nodes);
   found.insert(found.end(), by_all.begin(), by_all.end());
   return found;
 }
