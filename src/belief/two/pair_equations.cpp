@@ -198,8 +198,10 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     if (!model.places.closed) {
       const double end = s < 0.5 * errors.perimeter() ? -1 : 1;
       const double past = end < 0 ? -s : s - errors.perimeter();
-      rows.past[i] = past / errors.contact_sd();
-      rows.past_by_start[i] = end * at.place[finger].slope / errors.contact_sd();
+      if (past > 0) {
+        rows.past[i] = past / errors.contact_sd();
+        rows.past_by_start[i] = end * at.place[finger].slope / errors.contact_sd();
+      }
     }
   }
   if (errors.absolute()) {

@@ -126,7 +126,11 @@ class PairPass {
     const Eigen::Matrix<double, 5, N> gain = weight * of_errors * inverse;
     score_.slope -= weight * by_start.transpose() * (inverse * innovation);
     score_.information += weight * by_start.transpose() * inverse * by_start;
-    keep_on_outline(rows.past, rows.past_by_start);
+    // On an open outline a contact past an end costs as much as it is off.
+    score_.cost += rows.past.squaredNorm();
+    score_.direct_cost += rows.past.squaredNorm();
+    score_.slope -= rows.past.cwiseProduct(rows.past_by_start);
+    score_.information.diagonal() += rows.past_by_start.cwiseAbs2();
     score_.errors += gain * innovation;
     score_.errors_by_start += gain * by_start;
     score_.covariance -= gain * of_errors.transpose();
@@ -140,18 +144,6 @@ class PairPass {
     if (!model_.errors->drifts()) return;
     walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
     gathered_.add(noise.determinant() / own.determinant());
-  }
-
-  /// On an open outline a contact past an end costs as much as it is off.
-  void keep_on_outline(const Eigen::Vector2d& past, const Eigen::Vector2d& by_start) {
-    for (const Eigen::Index i : {0, 1}) {
-      score_.room[i] = std::min(score_.room[i], -past[i]);
-      if (past[i] <= 0) continue;
-      score_.cost += square(past[i]);
-      score_.direct_cost += square(past[i]);
-      score_.slope[i] -= past[i] * by_start[i];
-      score_.information(i, i) += square(by_start[i]);
-    }
   }
 
   /// The guess; but what walks is where it has got to.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "belief/nodes.hpp"
 #include "belief/posterior.hpp"
 #include "belief/tilted_boundary.hpp"
+#include "belief/two/pair_passings.hpp"
 #include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
@@ -86,8 +86,6 @@ struct PairScore {
   PairShared errors = PairShared::Zero();
   PairSharedCovariance covariance = PairSharedCovariance::Zero();
   Eigen::Matrix<double, 5, 2> errors_by_start = Eigen::Matrix<double, 5, 2>::Zero();
-  // How near each finger comes to an open outline's ends, standard deviations; negative: so far past one of them.
-  Eigen::Vector2d room = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
 
   double log_likelihood() const { return -0.5 * (cost + log_volume); }
 };
@@ -105,12 +103,13 @@ struct PairModel {
   std::array<const TiltedBoundary*, 2> boundary{};
   std::array<const FeltTurning*, 2> felt{};
   std::array<const FeltTurning*, 2>
-      slipping{};                          // the same where a place is off by what has slipped as well, or nullptr
-  const BoundaryPath* path = nullptr;      // where centres are looked at
-  double outlier_share = 0;                // of rows whose turn is anything
-  std::optional<Prior> prior;              // of finger a's first contact
-  std::optional<PosePrior> pose;           // of the part at the first contacts, ...
-  std::array<MeasuredContact, 2> first{};  // ... as they were felt
+      slipping{};                             // the same where a place is off by what has slipped as well, or nullptr
+  std::array<const Passings*, 2> passings{};  // of the nodes, where the part has corners or ends
+  const BoundaryPath* path = nullptr;         // where centres are looked at
+  double outlier_share = 0;                   // of rows whose turn is anything
+  std::optional<Prior> prior;                 // of finger a's first contact
+  std::optional<PosePrior> pose;              // of the part at the first contacts, ...
+  std::array<MeasuredContact, 2> first{};     // ... as they were felt
   const Part* part = nullptr;
   Boundary places;
   Effort effort = Effort::whole;
@@ -143,9 +142,8 @@ struct PairEquations {
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
   Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
   Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, of fingers at corners
-  // An open outline's: how far each contact is past the nearer end, in standard deviations, negative where it is on the
-  // outline; and that by w.
-  Eigen::Vector2d past = Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity());
+  // How far each contact is past an open outline's ends, in standard deviations; and that by w.
+  Eigen::Vector2d past = Eigen::Vector2d::Zero();
   Eigen::Vector2d past_by_start = Eigen::Vector2d::Zero();
 };
 

@@ -48,6 +48,14 @@ constexpr int kMostBeginnings = 4;
 constexpr double kOffTop = 4;
 // Wide peaks come first, but not those that next to nothing is at: of a peak's density this power counts.
 constexpr double kShareOfDensity = 0.5;
+// The middle of a square sees a passing from so many of its standard deviations.
+constexpr double kPassingWidth = 2;
+// Passings along a square's sides are none within it.
+constexpr double kInside = 0.9;
+// Gaps of so many standard deviations of a contact have a flat middle.
+constexpr double kWideGap = 6;
+// A square is as wide as the gap between two, or less: halved so often it says well enough how much is on either side.
+constexpr int kPassingHalvings = 3;
 // A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
 constexpr double kForetold = 1;
 constexpr int kGrainsAcross = 3;
@@ -125,13 +133,15 @@ class Spreading {
   std::vector<Known> known_in(const PairRegion& region) const;
   /// Peaks in a square that its quadratic does not foretell are sharper than it is.
   bool foretells_peaks(const PairRegion& region, const PairLeaf& leaf) const;
-  double rate_at_end(const PairRegion& region, const PairLeaf& leaf) const;
+  bool has_passings(const PairRegion& region, const PairLeaf& leaf) const;
   bool look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves);
   void weigh(const PairRegion& region, PairLeaf& leaf) const;
   double log_prior(const PairStart& start) const;
   bool is_negligible(const PairScore& score) const {
     return (score.log_likelihood() - best_) / heat_ < -kNegligiblePair;
   }
+  PairPeak between_passings(const PairPeak& peak) const;
+  Eigen::Matrix2d information_of_gaps(const PairStart& start) const;
   /// So wide that a square is `factor` standard deviations, as far as that is known at the peak.
   Eigen::Matrix2d frame_of(const PairPeak& peak, double factor) const;
 
@@ -210,18 +220,16 @@ bool Spreading::foretells_peaks(const PairRegion& region, const PairLeaf& leaf) 
   });
 }
 
-/// How fast the distance changes where a square leads a contact past an open outline's end, though its middle does not:
-/// standard deviations per length of y. 0 where it does not.
-double Spreading::rate_at_end(const PairRegion& region, const PairLeaf& leaf) const {
-  double most = 0;
+/// Are there passings within a square that is wide beside them?
+bool Spreading::has_passings(const PairRegion& region, const PairLeaf& leaf) const {
   for (const std::size_t finger : {0U, 1U}) {
-    const auto i = static_cast<Eigen::Index>(finger);
-    const double slope = leaf.start.arc[finger]->at(leaf.start.w[finger]).slope;
-    const double rate = region.frame.row(i).norm() * slope / model_.errors->contact_sd();
-    const double reach = 0.5 * leaf.size * region.frame.row(i).lpNorm<1>() * slope / model_.errors->contact_sd();
-    if (leaf.score.room[i] > 0 && leaf.score.room[i] < reach) most = std::max(most, rate);
+    if (model_.passings[finger] == nullptr) continue;
+    const TiltedPlace place = leaf.start.arc[finger]->at(leaf.start.w[finger]);
+    const Eigen::RowVector2d along = region.frame.row(static_cast<Eigen::Index>(finger)) * place.slope;
+    const double reach = 0.5 * leaf.size * along.lpNorm<1>();
+    if (reach > kPassingWidth * model_.passings[finger]->sharpest(place.s, kInside * reach)) return true;
   }
-  return most;
+  return false;
 }
 
 /// True where the density of a square, or of some part of it, is not negligible.
@@ -238,13 +246,15 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   const Eigen::Matrix2d information = region.frame.transpose() * leaf.score.information * region.frame;
   const double trace = information.trace();
   const double gap = std::hypot(information(0, 0) - information(1, 1), 2 * information(0, 1));
-  const double rate = std::max(std::sqrt(std::max(0.0, 0.5 * (trace + gap))), rate_at_end(region, leaf));
+  const double rate = std::sqrt(std::max(0.0, 0.5 * (trace + gap)));
   const double reach = kPairRateSafety * rate * task.size * std::sqrt(0.5);
   const double distance = std::max(0.0, std::sqrt(leaf.score.cost) - reach);
   const double most = -0.5 * (std::min(leaf.score.cost, distance * distance) + leaf.score.log_volume);
   const bool foretells = foretells_peaks(region, leaf);
   if (foretells && (most - best_) / heat_ < -kNegligiblePair) return false;
-  const bool is_fine = foretells && rate * task.size <= kFinePairStep * std::sqrt(heat_);
+  // At passings it may change by any amount, which the middle does not see.
+  const bool has_jump = task.depth < kPassingHalvings && !is_negligible(leaf.score) && has_passings(region, leaf);
+  const bool is_fine = foretells && !has_jump && rate * task.size <= kFinePairStep * std::sqrt(heat_);
   if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < limit_) {
     bool matters = false;
     for (const double x : {-0.25, 0.25}) {
@@ -258,8 +268,11 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
         matters = look_into(region, quarter, leaves) || matters;
       }
     }
-    // A peak so sharp that no quarter's middle is on it stays, not resolved.
     if (matters || is_negligible(leaf.score)) return matters;
+    // A peak so sharp that no quarter's middle is on it.
+    return look_into(region,
+                     {task.centre, 0.5 * task.size, task.depth + 1, leaf.score.errors, by, leaf.score.errors_by_start},
+                     leaves);
   }
   leaf.log_density = (leaf.score.log_likelihood() - best_) / heat_ + log_prior(leaf.start);
   weigh(region, leaf);
@@ -311,9 +324,41 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   return true;
 }
 
+/// The middle between the passings about a peak, if it is as good: then these are along the squares' sides.
+PairPeak Spreading::between_passings(const PairPeak& peak) const {
+  PairStart start = peak.start;
+  for (const std::size_t finger : {0U, 1U}) {
+    if (model_.passings[finger] == nullptr) continue;
+    const TiltedArc& arc = *start.arc[finger];
+    const TiltedPlace place = arc.at(start.w[finger]);
+    const Interval gap = model_.passings[finger]->gap(place.s);
+    if (!(gap.width() > kWideGap * model_.errors->contact_sd()) || !std::isfinite(gap.width())) continue;
+    const double middle = start.w[finger] + (gap.middle() - place.s) / place.slope;
+    if (place.slope > 0 && middle > arc.lo() && middle < arc.hi()) start.w[finger] = middle;
+  }
+  if (start.w == peak.start.w) return peak;
+  const PairPeak found{start, score_of(model_, start, nodes_, peak.score.errors, kPasses)};
+  const bool is_as_good = (peak.score.log_likelihood() - found.score.log_likelihood()) / heat_ < kForetold;
+  return is_as_good && !is_taken(start) ? found : peak;
+}
+
+/// Of w, of a density that is constant between passings: its squares are as wide as the gap, or as a contact's error.
+Eigen::Matrix2d Spreading::information_of_gaps(const PairStart& start) const {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const std::size_t finger : {0U, 1U}) {
+    if (model_.passings[finger] == nullptr) continue;
+    const auto i = static_cast<Eigen::Index>(finger);
+    const TiltedPlace place = start.arc[finger]->at(start.w[finger]);
+    const double gap = std::max(model_.passings[finger]->gap(place.s).width(), model_.errors->contact_sd());
+    information(i, i) = square(place.slope / gap);
+  }
+  return information;
+}
+
 Eigen::Matrix2d Spreading::frame_of(const PairPeak& peak, double factor) const {
   const double longest = kLongestSquare * std::min(span(*peak.start.arc[0]), span(*peak.start.arc[1]));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat_);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat_ +
+                                                              information_of_gaps(peak.start));
   Eigen::Matrix2d frame;
   for (const Eigen::Index i : {0, 1}) {
     const double precision = std::max(0.0, solver.eigenvalues()[i]);
@@ -348,13 +393,14 @@ void Spreading::from(const PairStart& start) {
 void Spreading::from(const PairPeak& peak) {
   // One that is off its hill's top may still lead to it.
   if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair || is_taken(peak.start)) return;
+  const PairPeak begin = between_passings(peak);
   // No region takes what others need.
   limit_ = hypotheses_ + (most_hypotheses_ - std::min(hypotheses_, most_hypotheses_)) / 2;
   double factor = 1;
   for (int beginning = 0; beginning < kMostBeginnings; ++beginning, factor *= kLargerSquares) {
     PairRegion region;
-    region.origin = peak.start;
-    region.frame = frame_of(peak, factor);
+    region.origin = begin.start;
+    region.frame = frame_of(begin, factor);
     region.back = region.frame.inverse();
     if (!region.back.allFinite()) {  // rows that contradict the noise by far: how wide it is can't be said
       unresolved_ = std::numeric_limits<double>::infinity();
@@ -365,7 +411,7 @@ void Spreading::from(const PairPeak& peak) {
     }
     const double unresolved = unresolved_;
     const bool is_last = beginning + 1 == kMostBeginnings;
-    if (!spread(region, peak, is_last ? most_hypotheses_ : many_squares_)) {
+    if (!spread(region, begin, is_last ? most_hypotheses_ : many_squares_)) {
       unresolved_ = unresolved;
       continue;
     }

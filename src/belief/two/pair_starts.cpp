@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -126,11 +127,6 @@ std::vector<PairNode> without_centres(std::vector<PairNode> nodes) {
 
 bool by_deviance(const PairPeak& one, const PairPeak& other) { return deviance(one.score) < deviance(other.score); }
 
-/// Sharper than the noise of the facing.
-bool is_felt(const PairModel& model, const Corner& corner) {
-  return corner.turn > kFarthest * std::sqrt(model.errors->facing_variance());
-}
-
 /// Where one first contact may be in a cell: a place on the boundary, or a corner at which the finger has pivoted by up
 /// to `pivot` from w on.
 struct Stand {
@@ -158,29 +154,12 @@ std::optional<Stand> stand_at(const PairModel& model, std::size_t finger, double
   return std::nullopt;
 }
 
-/// Places s of a finger from which a node is at a corner, s + L = corner, in order. Between two of them the likelihood is
-/// about constant; at each it jumps, or is sharp.
-std::vector<double> passings_of(const PairModel& model, std::size_t finger, const std::vector<PairNode>& nodes) {
-  std::vector<double> passings;
-  for (const Corner& corner : model.part->corners()) {
-    if (!is_felt(model, corner)) continue;
-    for (const PairNode& node : nodes) {
-      if (!node.is_facing) passings.push_back(model.places.on_first_lap(corner.s - node.length[finger]));
-    }
-  }
-  std::sort(passings.begin(), passings.end());
-  return passings;
-}
-
 /// The places of a finger in the cells of the candidates' grid that are in use: the middle of each, or of each interval
 /// between passings in it, and its corners.
 class Stands {
  public:
-  Stands(const PairModel& model, std::size_t finger, std::uint32_t cells, std::vector<double> passings)
-      : model_(model),
-        finger_(finger),
-        step_(model.perimeter() / static_cast<double>(cells)),
-        passings_(std::move(passings)) {}
+  Stands(const PairModel& model, std::size_t finger, std::uint32_t cells, const Passings* passings)
+      : model_(model), finger_(finger), step_(model.perimeter() / static_cast<double>(cells)), passings_(passings) {}
 
   const std::vector<Stand>& in(std::uint32_t cell) {
     const auto [found, is_new] = of_cell_.try_emplace(cell);
@@ -203,17 +182,17 @@ class Stands {
     }
   }
 
-  /// Of the cell from here on: the middle of each group of passings that a contact's error can't tell apart, and of each
-  /// gap between two.
+  /// Of the cell from here on: the middle of each group of passings that a contact's error can't tell apart, and of
+  /// each gap between two.
   std::vector<double> middles_in(double from) const {
-    const double apart = kWide * model_.errors->contact_sd();
     std::vector<double> middles;
     double begin = from;
-    auto next = std::lower_bound(passings_.begin(), passings_.end(), from);
-    while (next != passings_.end() && *next < from + step_) {
-      const double first = *next;
+    const std::span<const Passing> passings =
+        passings_ == nullptr ? std::span<const Passing>() : passings_->between(from, from + step_);
+    for (auto next = passings.begin(); next != passings.end();) {
+      const double first = next->s;
       double last = first;
-      while (++next != passings_.end() && *next < from + step_ && *next - last < apart) last = *next;
+      while (++next != passings.end() && next->s - last < kWide * next->sd) last = next->s;
       middles.push_back(0.5 * (begin + first));
       middles.push_back(0.5 * (first + last));
       begin = last;
@@ -225,7 +204,7 @@ class Stands {
   const PairModel& model_;
   std::size_t finger_;
   double step_;
-  std::vector<double> passings_;
+  const Passings* passings_;  // none: nullptr
   std::unordered_map<std::uint32_t, std::vector<Stand>> of_cell_;
 };
 
@@ -253,8 +232,8 @@ PairStart faced(const PairModel& model, const std::array<Stand, 2>& stands, cons
 /// The candidates by few rows: no arc where a finger can't be there.
 std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candidates,
                              const std::vector<PairNode>& nodes) {
-  Stands of_a(model, 0, candidates.cells, {});
-  Stands of_b(model, 1, candidates.cells, {});
+  Stands of_a(model, 0, candidates.cells, nullptr);
+  Stands of_b(model, 1, candidates.cells, nullptr);
   std::vector<PairPeak> peaks(candidates.squares.size());
   for (std::size_t k = 0; k < peaks.size(); ++k) {
     PairPeak& best = peaks[k];
@@ -272,8 +251,8 @@ std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candi
 /// The places in candidates' squares that are wide beside a contact's error: from each interval between passings.
 std::vector<PairPeak> scored_within(const PairModel& model, const PairCandidates& candidates,
                                     const std::vector<PairNode>& nodes) {
-  Stands of_a(model, 0, candidates.cells, passings_of(model, 0, nodes));
-  Stands of_b(model, 1, candidates.cells, passings_of(model, 1, nodes));
+  Stands of_a(model, 0, candidates.cells, model.passings[0]);
+  Stands of_b(model, 1, candidates.cells, model.passings[1]);
   std::vector<PairPeak> peaks;
   for (const PairSquare& square : candidates.squares) {
     for (const Stand& a : of_a.in(square.i)) {
@@ -379,14 +358,14 @@ std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& can
                                const std::vector<PairNode>& nodes) {
   std::vector<PairPeak> scores = scored(model, candidates, some_of(nodes, kVeryFewRows));
   std::vector<PairPeak> found = climbed(model, best_of_neighbours(model, candidates, scores), some_of(nodes, kFewRows));
-  const bool has_plateaus = model.felt[0]->has_corners() && nodes.size() > kVeryFewRows;
-  if (model.effort != Effort::whole || !has_plateaus) return found;
+  if (model.effort != Effort::whole || model.passings[0] == nullptr) return found;
   const double width = model.perimeter() / static_cast<double>(candidates.cells);
   if (width > kWide * model.errors->contact_sd()) {
     const std::vector<PairPeak> within = climbed(model, scored_within(model, candidates, nodes), nodes);
     found.insert(found.end(), within.begin(), within.end());
     return found;
   }
+  if (nodes.size() <= kVeryFewRows) return found;
   double best = std::numeric_limits<double>::infinity();
   double cost = 0;
   for (const PairPeak& each : scores) {

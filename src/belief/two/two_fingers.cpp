@@ -194,6 +194,10 @@ class TwoFingersPosterior : public Posterior {
       model.path = of.path_ && errors.absolute() ? &*of.path_ : nullptr;
       model.places = of.part_.boundary();
       if (of.options_.by_rows) model.effort = Effort::trial;
+      for (const std::size_t finger : {0U, 1U}) {
+        passings[finger].emplace(model, finger, nodes);
+        if (!passings[finger]->empty()) model.passings[finger] = &*passings[finger];
+      }
     }
     Question(const Question&) = delete;
     Question& operator=(const Question&) = delete;
@@ -201,6 +205,7 @@ class TwoFingersPosterior : public Posterior {
     std::vector<PairNode> nodes;
     std::array<std::optional<FeltTurning>, 2> felt;
     std::array<std::optional<FeltTurning>, 2> slipping;
+    std::array<std::optional<Passings>, 2> passings;
     PairModel model;
   };
 
