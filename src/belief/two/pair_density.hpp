@@ -54,6 +54,9 @@ PairStart moved(const PairStart& start, const Eigen::Vector2d& by);
 std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& candidates,
                                  const std::vector<PairNode>& nodes);
 
+// A leaf has the square of so many.
+inline constexpr int kGrainsAcross = 3;
+
 /// A point within a leaf, where its mass is summed.
 struct PairGrain {
   std::array<double, 2> s{};      // of finger a and b, unwrapped from the region's origin on

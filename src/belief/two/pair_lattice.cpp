@@ -58,7 +58,6 @@ constexpr double kWideGap = 6;
 constexpr int kPassingHalvings = 3;
 // A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
 constexpr double kForetold = 1;
-constexpr int kGrainsAcross = 3;
 constexpr int kPasses = 4;
 
 std::uint64_t square_key(const Eigen::Vector2d& y) {
@@ -342,15 +341,16 @@ PairPeak Spreading::between_passings(const PairPeak& peak) const {
   return is_as_good && !is_taken(start) ? found : peak;
 }
 
-/// Of w, of a density that is constant between passings: its squares are as wide as the gap, or as a contact's error.
+/// Of w, of a density that is constant between passings: its squares are as wide as the gap with its edges.
 Eigen::Matrix2d Spreading::information_of_gaps(const PairStart& start) const {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (const std::size_t finger : {0U, 1U}) {
     if (model_.passings[finger] == nullptr) continue;
     const auto i = static_cast<Eigen::Index>(finger);
     const TiltedPlace place = start.arc[finger]->at(start.w[finger]);
-    const double gap = std::max(model_.passings[finger]->gap(place.s).width(), model_.errors->contact_sd());
-    information(i, i) = square(place.slope / gap);
+    const double width =
+        model_.passings[finger]->gap(place.s).width() + 2 * kPassingWidth * model_.errors->contact_sd();
+    information(i, i) = square(place.slope / width);
   }
   return information;
 }

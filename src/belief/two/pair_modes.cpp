@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
@@ -72,21 +73,29 @@ std::vector<std::size_t> tops_of(const PairRegion& region) {
   return result;
 }
 
-/// A share of the mass, at one finger's place.
+/// A share of the mass, at one finger's place, give or take `half`.
 struct Grain {
   double s;
+  double half;
   double share;
 };
 
-/// The place up to which there is this much mass. `grains`: in order of s. A grain's mass lies around it: half of it
-/// before.
+/// The place up to which there is this much mass. `grains`: in order of s. Each one's mass is spread to half way to its
+/// neighbours, the outermost ones' as far as they go.
 double quantile(const std::vector<Grain>& grains, double mass) {
+  const double most = grains.back().s + grains.back().half;
+  double begin = grains.front().s - grains.front().half;
   double before = 0;
-  for (const Grain& grain : grains) {
-    if (before + 0.5 * grain.share >= mass) return grain.s;
-    before += grain.share;
+  double share = 0;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    share += grains[k].share;
+    const double end = k + 1 < grains.size() ? 0.5 * (grains[k].s + grains[k + 1].s) : most;
+    if (end <= begin) continue;  // several at one place
+    if (before + share >= mass) return begin + (end - begin) * std::clamp((mass - before) / share, 0.0, 1.0);
+    before += std::exchange(share, 0);
+    begin = end;
   }
-  return grains.back().s;
+  return most;
 }
 
 /// Leaves of a hill, weighed.
@@ -206,6 +215,16 @@ class PairHill {
     return (last_[finger] + leaf.score.errors[i]) / (1 + leaf.score.errors[2 + i]);
   }
 
+  /// How far a leaf's grains go to either side, along each finger's boundary.
+  std::array<double, 2> half_of_grains(const PairLeaf& leaf) const {
+    std::array<double, 2> half{};
+    for (const std::size_t finger : {0U, 1U}) {
+      const double along = region_->frame.row(static_cast<Eigen::Index>(finger)).cwiseAbs().sum();
+      half[finger] = 0.5 * leaf.size / kGrainsAcross * along * leaf.start.arc[finger]->at(leaf.start.w[finger]).slope;
+    }
+    return half;
+  }
+
   double variance_rolled(const PairLeaf& leaf, std::size_t finger) const {
     const auto i = static_cast<Eigen::Index>(finger);
     const double length = rolled(leaf, finger);
@@ -223,6 +242,7 @@ class PairHill {
     std::array<std::vector<Grain>, 2> grains;
     for (const std::size_t k : leaves_) {
       const PairLeaf& leaf = region_->leaves[k];
+      const std::array<double, 2> half = half_of_grains(leaf);
       for (const PairGrain& grain : leaf.grains) {
         Eigen::Vector2d off;
         for (const std::size_t finger : {0U, 1U}) {
@@ -231,7 +251,7 @@ class PairHill {
           const double end = off[i] + rolled(leaf, finger);
           end_sum[i] += grain.share * end;
           end_squares[i] += grain.share * (end * end + variance_rolled(leaf, finger));
-          grains[finger].push_back({off[i], grain.share});
+          grains[finger].push_back({off[i], half[finger], grain.share});
         }
         total += grain.share;
         sum += grain.share * off;
