@@ -252,15 +252,6 @@ Shift TiltedBoundary::shift(std::size_t folds) const {
   return {arcs_.front().loop() ? 0 : folds * (arcs_.size() / folds_), all_w_ * share, perimeter_ * share};
 }
 
-std::pair<const TiltedArc*, double> TiltedBoundary::alike(const TiltedArc& arc, double w, std::size_t folds) const {
-  const Shift by = shift(folds);
-  const double there = w + by.w;
-  if (arc.loop()) return {&arc, arc.lo() + wrap(there - arc.lo(), all_w_).base};
-  const std::size_t number = static_cast<std::size_t>(&arc - arcs_.data()) + by.arcs;
-  const bool is_on_next_lap = number >= arcs_.size();
-  return {&arcs_[number % arcs_.size()], there - (is_on_next_lap ? all_w_ : 0)};
-}
-
 void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& spiral, double winding, double accuracy,
                                 TiltedArc& arc) const {
   const double shift = winding * turning.perimeter();

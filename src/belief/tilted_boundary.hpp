@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "rollfix/curve.hpp"
@@ -148,8 +147,6 @@ class TiltedBoundary {
   std::size_t folds() const { return folds_; }
   /// From a place to the one that looks like it, so many folds further on.
   Shift shift(std::size_t folds) const;
-  /// The same from w on one of its arcs: the other arc, and w there.
-  std::pair<const TiltedArc*, double> alike(const TiltedArc& arc, double w, std::size_t folds) const;
 
  private:
   std::size_t count_folds() const;

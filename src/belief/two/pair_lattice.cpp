@@ -5,7 +5,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "belief/two/pair_density.hpp"
@@ -450,27 +449,6 @@ bool PairRegion::covers(const PairStart& start) const {
   return by && leaves_of.count(square_key(back * *by)) > 0;
 }
 
-namespace {
-
-/// Of a part that looks the same from several places, what is found at one of them is at the others as well: climbs to
-/// these may have ended below.
-void add_those_alike(const PairModel& model, const PairDensity& density, Spreading& spreading) {
-  const std::size_t folds = model.boundary[0]->folds();
-  if (model.boundary[1]->folds() != folds) return;
-  for (std::size_t k = 0; k < density.regions.size(); ++k) {
-    for (std::size_t fold = 1; fold < folds; ++fold) {
-      PairStart start = density.regions[k].origin;
-      for (const std::size_t finger : {0U, 1U}) {
-        std::tie(start.arc[finger], start.w[finger]) =
-            model.boundary[finger]->alike(*start.arc[finger], start.w[finger], fold);
-      }
-      spreading.from(start);
-    }
-  }
-}
-
-}  // namespace
-
 PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& peaks, const std::vector<PairNode>& nodes,
                          double excess, const std::array<double, 2>& corner_length) {
   PairDensity density;
@@ -483,7 +461,6 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
     const std::vector<PairStart> beyond = density.regions[next++].beyond;
     for (const PairStart& start : beyond) spreading.from(start);
   }
-  if (model.effort == Effort::whole) add_those_alike(model, density, spreading);
   const double total = spreading.total();
   // Next to nothing about any peak, as of rows that contradict the noise by far: nothing is known then.
   if (!(total > 0)) {
