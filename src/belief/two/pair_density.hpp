@@ -57,6 +57,20 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
 // A leaf has the square of so many.
 inline constexpr int kGrainsAcross = 3;
 
+// Passes through the rows for a square's score.
+inline constexpr int kPasses = 4;
+
+inline double span(const TiltedArc& arc) { return arc.hi() - arc.lo(); }
+
+/// Where a peak's squares begin: the middle between the passings about it if that is as good, so that these are along
+/// the squares' sides. `heat`: log-likelihoods are divided by it.
+PairPeak between_passings(const PairModel& model, const PairPeak& peak, const std::vector<PairNode>& nodes,
+                          double heat);
+
+/// From a region's coordinates to (w_a, w_b): a square is `factor` standard deviations wide as far as that is known at
+/// the peak, or as the gap between passings.
+Eigen::Matrix2d frame_of(const PairModel& model, const PairPeak& peak, double heat, double factor = 1);
+
 /// A point within a leaf, where its mass is summed.
 struct PairGrain {
   std::array<double, 2> s{};      // of finger a and b, unwrapped from the region's origin on

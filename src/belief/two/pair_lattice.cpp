@@ -1,4 +1,3 @@
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -33,9 +32,7 @@ constexpr double kNegligiblePair = 12.5;
 constexpr double kFinePairStep = 1.6;
 // The distance's rate of change varies within a square: it is taken as this much larger.
 constexpr double kPairRateSafety = 1.3;
-// Squares are no longer than this share of the boundary, ...
-constexpr double kLongestSquare = 1.0 / 96;
-// ... and not halved more often than this.
+// Squares are not halved more often than this.
 constexpr int kMostPairHalvings = 8;
 // By Effort. Hypotheses looked at; what is not resolved by then counts as rest.
 constexpr std::array<std::size_t, 3> kMostHypotheses = {60000, 6000, 600};
@@ -51,13 +48,10 @@ constexpr double kShareOfDensity = 0.5;
 constexpr double kPassingWidth = 2;
 // Passings along a square's sides are none within it.
 constexpr double kInside = 0.9;
-// Gaps of so many standard deviations of a contact have a flat middle.
-constexpr double kWideGap = 6;
 // A square is as wide as the gap between two, or less: halved so often it says well enough how much is on either side.
 constexpr int kPassingHalvings = 3;
 // A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
 constexpr double kForetold = 1;
-constexpr int kPasses = 4;
 
 std::uint64_t square_key(const Eigen::Vector2d& y) {
   const auto i = static_cast<std::int32_t>(std::floor(y[0] + 0.5));
@@ -70,8 +64,6 @@ double mass_of(const PairRegion& region) {
   for (const PairLeaf& leaf : region.leaves) sum += leaf.share;
   return sum;
 }
-
-double span(const TiltedArc& arc) { return arc.hi() - arc.lo(); }
 
 /// Is a point as far from a region's origin as the region goes: half a loop either way, and to the ends of an arc.
 bool is_within(const PairStart& origin, const Eigen::Vector2d& by) {
@@ -138,10 +130,6 @@ class Spreading {
   bool is_negligible(const PairScore& score) const {
     return (score.log_likelihood() - best_) / heat_ < -kNegligiblePair;
   }
-  PairPeak between_passings(const PairPeak& peak) const;
-  Eigen::Matrix2d information_of_gaps(const PairStart& start) const;
-  /// So wide that a square is `factor` standard deviations, as far as that is known at the peak.
-  Eigen::Matrix2d frame_of(const PairPeak& peak, double factor) const;
 
   const PairModel& model_;
   const std::vector<PairNode>& nodes_;
@@ -322,55 +310,10 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   return true;
 }
 
-/// The middle between the passings about a peak, if it is as good: then these are along the squares' sides.
-PairPeak Spreading::between_passings(const PairPeak& peak) const {
-  PairStart start = peak.start;
-  for (const std::size_t finger : {0U, 1U}) {
-    if (model_.passings[finger] == nullptr) continue;
-    const TiltedArc& arc = *start.arc[finger];
-    const TiltedPlace place = arc.at(start.w[finger]);
-    const Interval gap = model_.passings[finger]->gap(place.s);
-    if (!(gap.width() > kWideGap * model_.errors->contact_sd()) || !std::isfinite(gap.width())) continue;
-    const double middle = start.w[finger] + (gap.middle() - place.s) / place.slope;
-    if (place.slope > 0 && middle > arc.lo() && middle < arc.hi()) start.w[finger] = middle;
-  }
-  if (start.w == peak.start.w) return peak;
-  const PairPeak found{start, score_of(model_, start, nodes_, peak.score.errors, kPasses)};
-  const bool is_as_good = (peak.score.log_likelihood() - found.score.log_likelihood()) / heat_ < kForetold;
-  return is_as_good && !is_taken(start) ? found : peak;
-}
-
-/// Of w, of a density that is constant between passings: its squares are as wide as the gap with its edges.
-Eigen::Matrix2d Spreading::information_of_gaps(const PairStart& start) const {
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  for (const std::size_t finger : {0U, 1U}) {
-    if (model_.passings[finger] == nullptr) continue;
-    const auto i = static_cast<Eigen::Index>(finger);
-    const TiltedPlace place = start.arc[finger]->at(start.w[finger]);
-    const double width =
-        model_.passings[finger]->gap(place.s).width() + 2 * kPassingWidth * model_.errors->contact_sd();
-    information(i, i) = square(place.slope / width);
-  }
-  return information;
-}
-
-Eigen::Matrix2d Spreading::frame_of(const PairPeak& peak, double factor) const {
-  const double longest = kLongestSquare * std::min(span(*peak.start.arc[0]), span(*peak.start.arc[1]));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat_ +
-                                                              information_of_gaps(peak.start));
-  Eigen::Matrix2d frame;
-  for (const Eigen::Index i : {0, 1}) {
-    const double precision = std::max(0.0, solver.eigenvalues()[i]);
-    const double step = std::min(longest, precision > 0 ? factor / std::sqrt(precision) : longest);
-    frame.col(i) = step * solver.eigenvectors().col(i);
-  }
-  return frame;
-}
-
 std::vector<PairPeak> Spreading::widest_first() const {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < peaks_.size(); ++k) {
-    const double log_area = std::log(std::abs(frame_of(peaks_[k], 1).determinant()));
+    const double log_area = std::log(std::abs(frame_of(model_, peaks_[k], heat_).determinant()));
     const double log_density = (peaks_[k].score.log_likelihood() - best_) / heat_;
     order.emplace_back(-log_area - kShareOfDensity * log_density, k);
   }
@@ -392,14 +335,15 @@ void Spreading::from(const PairStart& start) {
 void Spreading::from(const PairPeak& peak) {
   // One that is off its hill's top may still lead to it.
   if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair || is_taken(peak.start)) return;
-  const PairPeak begin = between_passings(peak);
+  const PairPeak middle = between_passings(model_, peak, nodes_, heat_);
+  const PairPeak& begin = is_taken(middle.start) ? peak : middle;
   // No region takes what others need.
   limit_ = hypotheses_ + (most_hypotheses_ - std::min(hypotheses_, most_hypotheses_)) / 2;
   double factor = 1;
   for (int beginning = 0; beginning < kMostBeginnings; ++beginning, factor *= kLargerSquares) {
     PairRegion region;
     region.origin = begin.start;
-    region.frame = frame_of(begin, factor);
+    region.frame = frame_of(model_, begin, heat_, factor);
     region.back = region.frame.inverse();
     if (!region.back.allFinite()) {  // rows that contradict the noise by far: how wide it is can't be said
       unresolved_ = std::numeric_limits<double>::infinity();

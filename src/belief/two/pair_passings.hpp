@@ -11,6 +11,9 @@ namespace rollfix::belief {
 
 struct PairModel;
 
+// What is wider than so many standard deviations of a contact has a flat middle between passings.
+inline constexpr double kWide = 6;
+
 /// A place of a first contact from where a node is at a corner, or at an open outline's end, with its standard
 /// deviation.
 struct Passing {

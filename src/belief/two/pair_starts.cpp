@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -37,8 +36,6 @@ constexpr int kFineSteps = 8;
 // Candidates whose deviance with few rows is further above the best one's than this, in units of how badly the best
 // fits itself, can't be the answer.
 constexpr double kHopeless = 120;
-// Squares that are wider than so many standard deviations of a contact have several plateaus in them.
-constexpr double kWide = 6;
 constexpr std::size_t kMostStarts = 400;
 constexpr std::size_t kMostPeaks = 200;
 // Of as many, half are the best there are; the others come from wherever they can, of so many parts of a perimeter: a
@@ -352,37 +349,42 @@ std::vector<PairPeak> climbed(const PairModel& model, std::vector<PairPeak> chos
                          on_trial ? kMostPeaksOnTrial : kMostPeaks);
 }
 
-/// The candidates' peaks: by few of the rows and, as these leave plateaus where the instant at which a finger passes a
-/// corner tells a place, by all.
-std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& candidates,
+/// Places that few rows do not rule out, compared by all of them; the others have no arc.
+std::vector<PairPeak> rescored(const PairModel& model, std::vector<PairPeak> places,
                                const std::vector<PairNode>& nodes) {
-  std::vector<PairPeak> scores = scored(model, candidates, some_of(nodes, kVeryFewRows));
-  std::vector<PairPeak> found = climbed(model, best_of_neighbours(model, candidates, scores), some_of(nodes, kFewRows));
-  if (model.effort != Effort::whole || model.passings[0] == nullptr) return found;
-  const double width = model.perimeter() / static_cast<double>(candidates.cells);
-  if (width > kWide * model.errors->contact_sd()) {
-    const std::vector<PairPeak> within = climbed(model, scored_within(model, candidates, nodes), nodes);
-    found.insert(found.end(), within.begin(), within.end());
-    return found;
-  }
-  if (nodes.size() <= kVeryFewRows) return found;
-  double best = std::numeric_limits<double>::infinity();
-  double cost = 0;
-  for (const PairPeak& each : scores) {
-    if (each.start.arc[0] == nullptr || deviance(each.score) >= best) continue;
-    best = deviance(each.score);
-    cost = each.score.cost;
-  }
-  const double most = best + kHopeless * std::max(1.0, cost / static_cast<double>(kVeryFewRows));
-  for (PairPeak& each : scores) {
-    if (each.start.arc[0] == nullptr) continue;
+  const auto is_place = [](const PairPeak& one) { return one.start.arc[0] != nullptr; };
+  const auto best = std::min_element(places.begin(), places.end(), [&](const PairPeak& one, const PairPeak& other) {
+    return is_place(one) && (!is_place(other) || by_deviance(one, other));
+  });
+  if (best == places.end()) return places;
+  const double scale = std::max(1.0, best->score.cost / static_cast<double>(kVeryFewRows));
+  const double most = deviance(best->score) + kHopeless * scale;
+  for (PairPeak& each : places) {
+    if (!is_place(each)) continue;
     if (deviance(each.score) > most) {
       each.start.arc[0] = nullptr;
     } else {
       each.score = score_of(model, each.start, nodes, PairShared::Zero(), 1);
     }
   }
-  const std::vector<PairPeak> by_all = climbed(model, best_of_neighbours(model, candidates, scores), nodes);
+  return places;
+}
+
+/// The candidates' peaks: by few of the rows and, as these leave plateaus where the instant at which a finger passes a
+/// corner tells a place, by all.
+std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& candidates,
+                               const std::vector<PairNode>& nodes) {
+  const std::vector<PairPeak> scores = scored(model, candidates, some_of(nodes, kVeryFewRows));
+  std::vector<PairPeak> found = climbed(model, best_of_neighbours(model, candidates, scores), some_of(nodes, kFewRows));
+  if (model.effort != Effort::whole || model.passings[0] == nullptr) return found;
+  const double width = model.perimeter() / static_cast<double>(candidates.cells);
+  const bool is_wide = width > kWide * model.errors->contact_sd();
+  if (!is_wide && nodes.size() <= kVeryFewRows) return found;
+  const std::vector<PairPeak> by_all =
+      climbed(model,
+              is_wide ? scored_within(model, candidates, nodes)
+                      : best_of_neighbours(model, candidates, rescored(model, scores, nodes)),
+              nodes);
   found.insert(found.end(), by_all.begin(), by_all.end());
   return found;
 }
