@@ -23,7 +23,7 @@
 namespace rollfix::locating {
 namespace {
 
-// Down to pairs of spirals: below, looking at each costs less than to exclude some.
+// The level of the tree's pairs of spirals, the lowest. To examine each spiral below costs less than to exclude some.
 constexpr std::size_t kLeafLevel = 1;
 // While more blocks than this are left, a further reading is asked.
 constexpr std::size_t kFewBlocks = 8;
@@ -36,6 +36,8 @@ using Blocks = boost::container::small_vector<std::size_t, 16>;
 /// Pairs of blocks on which a roll starts and ends, for one reading, from all spirals down to a few.
 class Descent {
  public:
+  /// `range`: of first contacts; `tolerance`: of |f|, radians. Whole laps of L are taken off a closed part, and their
+  /// turn off theta: f is the same.
   Descent(const Part& part, const Reading& reading, const Interval& range, double tolerance)
       : turning_(part.turning()), tree_(PartAccess::data(part).tree), range_(range) {
     const double period = part.perimeter();
@@ -53,6 +55,7 @@ class Descent {
   /// The blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
   Blocks run(const Blocks* among, SearchCounts& counts) {
     among_ = among;
+    // Start and end both on the first lap, s + L < P.
     const Stretch all{0, 0, turning_.perimeter()};
     visit(tree_.top(), all, all);
     if (turning_.closed()) {
@@ -77,7 +80,11 @@ class Descent {
     double hi = 0;
   };
 
+  /// Excludes the first contacts on block `start` whose rolls end on block `end`, or goes on to the four pairs of
+  /// halves, or keeps `start` on the lowest level. Few pairs of a level remain around each answer, for a strip's width
+  /// falls with the square of the block's length.
   void visit(std::size_t level, const Stretch& start, const Stretch& end) {
+    // The first contacts for which the roll starts on the one block and ends on the other.
     const Interval s{std::max({start.lo, end.lo - offset_, range_.lo}),
                      std::min({start.hi, end.hi - offset_, range_.hi})};
     if (s.lo > s.hi + same_place_ || !is_asked_for(level, start)) return;
@@ -95,7 +102,8 @@ class Descent {
     visit(below, second_start, second_end);
   }
 
-  /// The last block of a level may have one half alone: of the other nothing is left.
+  /// The two blocks of level `below` that make up this one. The last block of a level may have only the first of them:
+  /// then the second is kNone, which is empty.
   std::pair<Stretch, Stretch> halves(std::size_t below, const Stretch& whole) const {
     const std::size_t second = 2 * whole.index + 1;
     if (second >= tree_.count(below)) return {{2 * whole.index, whole.lo, whole.hi}, kNone};
@@ -103,22 +111,28 @@ class Descent {
     return {{2 * whole.index, whole.lo, middle}, {second, middle, whole.hi}};
   }
 
+  /// Is there something to learn about this block: not kept already, and some part of it left by the readings before?
   bool is_asked_for(std::size_t level, const Stretch& start) const {
     if (level == kLeafLevel && !left_.empty() && left_.back() == start.index) return false;  // is in already
     if (among_ == nullptr) return true;
+    // A block k of this level holds the blocks k 2^width, ..., (k + 1) 2^width - 1 of the lowest one.
     const std::size_t width = level - kLeafLevel;
     const auto next = std::lower_bound(among_->begin(), among_->end(), start.index << width);
     return next != among_->end() && *next >> width == start.index;
   }
 
-  /// Can f be within the tolerance for some s, the pivots at the joints where the two blocks end included?
+  /// Can f be within the tolerance for some s in this interval? Pivots at the joints where the two blocks end are
+  /// included. False is proved; true may be wrong, which costs time only.
   bool may_fit(std::size_t level, const Stretch& start, const Stretch& end, const Interval& s) {
     ++intervals_;
     const TurningTree::Block& at_start = tree_.block(level, start.index);
     const TurningTree::Block& at_end = tree_.block(level, end.index);
+    // f less the two strips: straight in s, so its values at both ends bound it.
     const double first = at_end.chord(s.lo + offset_) - at_start.chord(s.lo) - turn_;
     const double last = at_end.chord(s.hi + offset_) - at_start.chord(s.hi) - turn_;
+    // The places where the chords are taken are off by rounding, which times the slope is an angle.
     const double far = tolerance_ + same_place_ * (at_start.steepest + at_end.steepest);
+    // f is above the straight line by [below, above]. The jump at a block's end is that of a pivot at its last joint.
     const double below = std::min(at_end.below, at_end.jump) - std::max(at_start.above, at_start.jump);
     const double above = std::max(at_end.above, at_end.jump) - std::min(at_start.below, at_start.jump);
     return std::min(first, last) + below <= far && std::max(first, last) + above >= -far;
@@ -148,6 +162,7 @@ Candidates find_candidates(const ContactEquations& question, const Interval& ran
   Candidates found;
   Blocks left;
   bool is_first = true;
+  // Every reading excludes by itself: a later one is asked about the blocks that the earlier ones left.
   for (const Reading& reading : question.readings) {
     left = Descent(part, reading, range, tolerance + reading.pivot).run(is_first ? nullptr : &left, found.counts);
     is_first = false;
@@ -155,6 +170,7 @@ Candidates find_candidates(const ContactEquations& question, const Interval& ran
   }
   const std::vector<Spiral>& spirals = part.turning().spirals();
   for (std::size_t k = 0; k < left.size(); ++k) {
+    // Neighbouring blocks make one stretch: the sweep enters each stretch anew.
     const std::size_t first = left[k] << kLeafLevel;
     while (k + 1 < left.size() && left[k + 1] == left[k] + 1) ++k;
     const std::size_t last = std::min((left[k] + 1) << kLeafLevel, spirals.size()) - 1;

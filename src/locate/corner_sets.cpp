@@ -23,7 +23,7 @@ namespace {
 // Readings and one-sided limits are few: no allocation for them.
 using Intervals = boost::container::small_vector<Interval, 4>;
 
-/// The corner at base, 0 <= base <= P, or none.
+/// The corner within `same_place` of base, 0 <= base <= P, or nullptr. s = 0 and s = P are one place of a closed part.
 const Corner* corner_at(const Part& part, double base, double same_place) {
   const std::vector<Corner>& corners = part.corners();
   if (corners.empty()) return nullptr;
@@ -52,7 +52,8 @@ Intervals choices(const AngleSet& set) {
   return {set.angles};
 }
 
-/// The tangent at a contact, of two fingers a's less b's.
+/// {Theta(s)}, of two fingers the differences {Theta(s)} - {Theta(t)}, as one interval for each choice at concave
+/// corners.
 Intervals tangents_at(const ContactEquations& question, const PerFinger<double>& at) {
   const auto tangents = [&](std::size_t finger) {
     return choices(angle_set(question.part, at[finger], question.at_corner));
@@ -66,19 +67,22 @@ Intervals tangents_at(const ContactEquations& question, const PerFinger<double>&
   return differences;
 }
 
+/// Each finger's contact at a reading: its first contact plus L, not wrapped.
 PerFinger<double> ends_of(const PerFinger<double>& at, const Reading& reading) {
   PerFinger<double> ends = at;
   for (std::size_t finger = 0; finger < at.size(); ++finger) ends[finger] += reading.length[finger];
   return ends;
 }
 
+/// The least slack of all intervals, and where it is reached.
 struct Fit {
   double residual = std::numeric_limits<double>::infinity();
   Interval start;  // the tangents at the start that have it
 };
 
-/// The least slack for which all the readings and the start's own set have a tangent in common: on a line, sets meet
-/// when each two of them do.
+/// The least residual r for which some w of the start's own set is within r of every wanted interval. On a line,
+/// intervals meet when each two of them do. So r is the worst gap: a whole one to the start's set, which does not give
+/// way, half of one between two wanted intervals, which both do.
 Fit fit(const Interval& start, const Intervals& wanted) {
   double most_lo = -std::numeric_limits<double>::infinity();
   double least_hi = std::numeric_limits<double>::infinity();
@@ -94,11 +98,13 @@ Fit fit(const Interval& start, const Intervals& wanted) {
   return best;
 }
 
-/// With w the start's tangent, f_k = Theta(s + L_k) - theta_k - w; of two fingers w = Theta(s) - Theta(t).
+/// The least largest |f_k| over all choices of w and of one-sided ends; with w the start's tangent, f_k = Theta(s +
+/// L_k) - theta_k - w, of two fingers w = Theta(s) - Theta(t).
 Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
   boost::container::small_vector<Intervals, 2> combinations(1);
   for (const Reading& reading : question.readings) {
+    // f_k = 0 asks w to be in {Theta(s + L_k)} - theta_k, widened by what the reading leaves open.
     const Intervals ends = tangents_at(question, ends_of(at, reading));
     const auto add = [&](Intervals& wanted, const Interval& end) {
       wanted.push_back({end.lo - (reading.turn + reading.pivot), end.hi - (reading.turn - reading.pivot)});
@@ -107,6 +113,7 @@ Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
       for (Intervals& wanted : combinations) add(wanted, ends.front());
       continue;
     }
+    // Every combination so far, with each of this end's choices: 2^n for n ends at concave corners.
     boost::container::small_vector<Intervals, 2> longer;
     for (const Interval& end : ends) {
       for (const Intervals& shorter : combinations) {
@@ -141,7 +148,8 @@ Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
   return best;
 }
 
-/// Can any of the contacts be at a corner?
+/// Can any of the contacts, first or last, be at a corner? Then residuals are those of sets. Of two fingers: on any
+/// part that has corners.
 bool meets_corner(const ContactEquations& question, const PerFinger<double>& at) {
   const Part& part = question.part;
   if (part.corners().empty()) return false;
@@ -178,6 +186,7 @@ AngleSet angle_set(const Part& part, double s, double at_corner) {
     const double angle = turning.angle(s, !part.closed() && s >= part.perimeter() ? Side::before : Side::after);
     return {{angle, angle}, false, false};
   }
+  // A place just before s = P belongs to a corner at s = 0 of the next lap.
   const double winding = place.winding + (place.base - corner->s > 0.5 * part.perimeter() ? 1 : 0);
   const double before = turning.angle(corner->s, Side::before) + winding * turning.period_turn();
   const double after = turning.angle(corner->s, Side::after) + winding * turning.period_turn();
@@ -198,6 +207,7 @@ Tangents tangents_of(const ContactEquations& question, std::size_t finger, doubl
 }
 
 double residual_of(const ContactEquations& question, const Tangents& of_a, const Tangents& of_b) {
+  // w = Theta(s) - Theta(t); the facing is known up to whole turns.
   const double start = of_a[0] - of_b[0];
   double largest = question.facing ? std::abs(std::remainder(start - *question.facing, kFullTurn)) : 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (8), (9)
@@ -211,6 +221,7 @@ double residual_of(const ContactEquations& question, const Tangents& of_a, const
 PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at,
                            const PerFinger<double>& end) {
   const Reading& last = question.readings.back();
+  // Theta at an end is unwrapped, so the place must be of the lap that the roll has reached.
   PerFinger<double> ends = ends_of(at, last);
   PerFinger<Pivot> pivots = PerFinger<Pivot>::of(at.size());
   for (std::size_t finger = 0; finger < at.size(); ++finger) {
@@ -221,6 +232,7 @@ PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<dou
   // One finger's start and end tell of each other.
   const Interval start = best_fit(question, at).start;
   const Interval tangents = pivots[0].end;
+  // Theta at the end = w + theta, the reading's interval included, as far as the end's own set goes.
   const auto inside = [&](double angle) { return std::clamp(angle, tangents.lo, tangents.hi); };
   return Pivot{start, {inside(start.lo + (last.turn - last.pivot)), inside(start.hi + (last.turn + last.pivot))}};
 }

@@ -40,12 +40,15 @@ AngleSet angle_set(const Part& part, double s, double at_corner = 0);
 /// What is asked of first contacts: f_k = 0 for each reading, and of two fingers the facing equation where it is known.
 struct ContactEquations {
   const Part& part;
-  std::span<const Reading> readings;
+  std::span<const Reading> readings;  // one or more, all of one finger or all of two
+  // C in Theta(s) - Theta(t) = C mod 2 pi, radians; empty: not known, or one finger.
   std::optional<double> facing{};
   double at_corner = 0;  // contacts that are no further from a convex corner may be at it: lengths are known no better
 
   std::size_t fingers() const { return readings.front().fingers(); }
+  /// How many equations: one for each reading, and the facing.
   std::size_t rows() const { return readings.size() + (facing ? 1 : 0); }
+  /// More equations than unknown first contacts: roots are where all of them are 0 at once, if at all.
   bool is_overdetermined() const { return rows() > fingers(); }
   /// No reading says more than an interval: every contact was on a corner of the finger.
   bool is_open() const {
@@ -57,7 +60,8 @@ struct ContactEquations {
 /// choice within the pivots, those of the first contacts being the same for all readings.
 double residual_at(const ContactEquations& question, const PerFinger<double>& at);
 
-/// Theta at a first contact of one finger and where each reading's roll ends from there, on a part without corners.
+/// Theta at a first contact of one finger ([0]) and where reading k's roll ends from there ([k + 1]), unwrapped,
+/// radians; for a part without corners.
 using Tangents = boost::container::small_vector<double, 4>;
 Tangents tangents_of(const ContactEquations& question, std::size_t finger, double at);
 

@@ -20,6 +20,7 @@
 namespace rollfix::locating {
 namespace {
 
+/// Throws InputError: a length or a turn that is not finite.
 void require_finite(const Reading& reading) {
   bool finite = std::isfinite(reading.turn);
   for (const double length : reading.length) finite = finite && std::isfinite(length);
@@ -48,6 +49,8 @@ void require_tolerance(const LocateOptions& options) {
 // A larger facing, as a double, is off by more than the turn's accuracy.
 constexpr double kMostFacing = 1e6;
 
+/// Throws InputError: readings or a facing that do not determine places. One finger needs one reading; two fingers have
+/// two unknown contacts, so they need two equations, of which the facing can be one.
 void require_enough(std::span<const Reading> readings, const LocateOptions& options) {
   if (readings.empty()) {
     throw InputError(
@@ -86,7 +89,9 @@ void require_enough(std::span<const Reading> readings, const LocateOptions& opti
   }
 }
 
-/// A smooth closed part's f is continuous and periodic: it crosses 0 evenly often; and so do two closed plane curves.
+/// Marks a search as incomplete that counts an odd number of crossings: a smooth closed part's f is continuous and
+/// periodic, so it crosses 0 evenly often, and so do two closed plane curves. Tells nothing where a placement is no
+/// single crossing, of open parts, with corners, or with more equations than unknowns.
 void check_parity(const ContactEquations& question, Search& search) {
   const Part& part = question.part;
   if (!part.closed() || !part.corners().empty() || question.rows() != question.fingers()) return;
@@ -98,6 +103,7 @@ void check_parity(const ContactEquations& question, Search& search) {
       });
   if (!all_cross || search.placements.size() % 2 == 0) return;
   search.status = Status::incomplete;
+  // One is missing or one too many, it is not known where: the whole boundary is named.
   search.unresolved.push_back(PerFinger<Interval>::of(question.fingers(), {0, part.perimeter()}));
 }
 
@@ -122,6 +128,7 @@ void require_lengths_that_tell(const ContactEquations& question, std::size_t fin
 
 Interval first_contacts(const ContactEquations& question, std::size_t finger) {
   const Part& part = question.part;
+  // Every s of a closed part can start every roll: s and s + P are one place.
   Interval range{0, part.perimeter()};
   if (part.closed()) {
     require_lengths_that_tell(question, finger);
@@ -135,6 +142,7 @@ Interval first_contacts(const ContactEquations& question, std::size_t finger) {
                       "check the units, or whether the curve should be closed",
                       part.name(), part.perimeter(), length));
     }
+    // Both s and s + L are on the curve, 0 <= s + L <= P. A roll as long as the curve leaves one place.
     range.lo = std::max(range.lo, -length);
     range.hi = std::min(range.hi, part.perimeter() - length);
   }
@@ -144,6 +152,7 @@ Interval first_contacts(const ContactEquations& question, std::size_t finger) {
 
 namespace {
 
+/// Checks the question, searches, and sets the status: complete only if nothing is unresolved and the parity is right.
 Search search(const Part& part, std::span<const Reading> readings, const LocateOptions& options) {
   require_enough(readings, options);
   require_tolerance(options);

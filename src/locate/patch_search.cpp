@@ -28,26 +28,26 @@ constexpr double kResolution = 1e-13;
 // A continuum shorter than this share of the perimeter can't be told from a place.
 constexpr double kShortestContinuum = 1e-9;
 
-/// How far the first contact's tangent must be from fitting every component, at least or at most, while the other
-/// curve's values are in these ranges. On a line, sets meet when each two of them do.
+/// How far tau is from fitting every component, radians, while the other curve's values are in given ranges: 0 where
+/// some tau fits all of them.
 class PatchFit {
  public:
   PatchFit(const RollPatch& patch, const PairLimits& limits) : patch_(patch), limits_(limits) {}
 
-  /// `sure`: for every value in the ranges, else for some.
+  /// `sure`: an upper bound, for every value in the ranges; else a lower bound, for the best of them.
   double slack(const std::vector<Range>& values, bool sure) const {
     return least(values, [&](double lap) { return slack_of_all(values, sure, lap); });
   }
 
-  /// How far it must be from fitting each two components at least, anywhere on a node of one piece: both have the first
-  /// contact, which bounds on each alone do not know.
+  /// A lower bound on the slack on a node of one piece, from each two components together: both contain Theta at the
+  /// first contact, which cancels in their difference and which bounds on each alone do not know.
   double slack_of_two(const PlaneCurve& curve, std::int32_t index, const std::vector<Range>& values) const {
     return least(values, [&](double lap) { return slack_of_each_two(curve, index, lap); });
   }
 
  private:
-  /// By whichever whole turns, less the facing, bring the other first contact's tangent near to this one's: where both
-  /// have wide ranges these may meet at either end.
+  /// The least slack over the whole turns that the facing leaves open: those that bring the other finger's first
+  /// tangent near to tau. Two neighbours are tried, for both may have wide ranges that meet at either end.
   template <class Slack>
   double least(const std::vector<Range>& values, const Slack& slack) const {
     if (!limits_.facing) return slack(0);
@@ -58,7 +58,10 @@ class PatchFit {
 
   bool is_facing(std::size_t row, std::size_t rows) const { return limits_.facing && row + 1 == rows; }
 
+  /// The worst gap between two of the intervals that confine tau. The patch's own set of tau does not give way, so a
+  /// gap to it counts whole; two other intervals share theirs.
   double slack_of_all(const std::vector<Range>& values, bool sure, double lap) const {
+    // With `sure` the interval holds the tau that fit every value in the range; it may be empty, most below least.
     std::vector<Range> wanted{patch_.tangents.front()};
     for (std::size_t row = 0; row < values.size(); ++row) {
       const Range& value = values[row];
@@ -82,6 +85,8 @@ class PatchFit {
     return worst;
   }
 
+  /// The same worst gap from differences of two components, phi_p - phi_q = b_p - b_q, in which tau cancels; with the
+  /// facing row, phi_p - lap = b_p + b.
   double slack_of_each_two(const PlaneCurve& curve, std::int32_t index, double lap) const {
     const double width = curve.node(index).width();
     const PlaneCurve::Component* of = curve.components(index);
@@ -102,7 +107,7 @@ class PatchFit {
   const PairLimits& limits_;
 };
 
-/// At one end of a node.
+/// The components at one end of a node, `first` or `last`, as ranges without width.
 std::vector<Range> values_at(const PlaneCurve& curve, std::int32_t index, double PlaneCurve::Component::*end) {
   std::vector<Range> values;
   for (std::size_t row = 0; row < curve.rows(); ++row) {
@@ -112,7 +117,8 @@ std::vector<Range> values_at(const PlaneCurve& curve, std::int32_t index, double
   return values;
 }
 
-/// One patch against the other finger's whole curve.
+/// One patch against the other finger's whole curve: nodes of that curve's tree are excluded, listed as pieces, or
+/// halved, depth first.
 class PatchSearch {
  public:
   PatchSearch(const RollPatch& patch, PlaneCurve& other, bool patched_is_a, const PairLimits& limits,
@@ -126,6 +132,7 @@ class PatchSearch {
         fit_(patch, limits),
         values_(other.rows()) {}
 
+  /// Decides all of the other curve's tree.
   void run() {
     waiting_.push_back(other_.root());
     while (!waiting_.empty()) {
@@ -136,13 +143,16 @@ class PatchSearch {
   }
 
  private:
+  /// Excludes a node, takes it as a piece, or halves it.
   void decide(std::int32_t index) {
     beat();
     ++findings_.counts.intervals;
     for (std::size_t row = 0; row < values_.size(); ++row) values_[row] = other_.components(index)[row].value;
+    // On a wider node more than the two neighbouring whole turns can fit.
     const bool one_lap = !limits_.facing || values_.back().spread() <= std::numbers::pi;
     if (one_lap && fit_.slack(values_, false) > limits_.tolerance) return;
     const PlaneCurve::Node node = other_.node(index);
+    // Nodes over many pieces come with the part: they cost nothing of the budget.
     if (!node.on_one_piece()) {
       halve(index);
       return;
@@ -158,6 +168,7 @@ class PatchSearch {
     }
   }
 
+  /// Is the tolerance kept everywhere on the node?
   bool fits_all_along(std::int32_t index) const {
     if (fit_.slack(values_, true) <= limits_.tolerance) return true;
     // The patch is convex and a pivot's curve is straight: it is inside where both of its ends are.
@@ -168,6 +179,7 @@ class PatchSearch {
            fits_at(&PlaneCurve::Component::last);
   }
 
+  /// The patched finger stands at the patch's corner; the other one is anywhere on the node, or at its own corner.
   PairBox box_of(const PlaneCurve::Node& node) const {
     const std::optional<double> pivot_at = other_.pivot_at(node);
     const Interval here{patch_.s, patch_.s};
@@ -175,6 +187,7 @@ class PatchSearch {
     return patched_is_a_ ? PairBox{here, there} : PairBox{there, here};
   }
 
+  /// Lists the node as a piece with a root at its start; as a continuum where it is wide and f can be 0 all along it.
   void take(const PlaneCurve::Node& node) {
     PairPiece found;
     found.box = box_of(node);
@@ -190,6 +203,7 @@ class PatchSearch {
 
   void halve(std::int32_t index) {
     const auto [left, right] = other_.halves(index);
+    // Depth first, the left half next.
     for (const std::int32_t half : {right, left}) {
       if (half >= 0) waiting_.push_back(half);
     }
@@ -221,6 +235,7 @@ void add_corner_pairs(const ContactEquations& question, const RollCurve& a, cons
   for (const RollPatch& on_a : a.patches()) {
     for (const RollPatch& on_b : b.patches()) {
       const PairPoint at{on_a.s, on_b.s};
+      // Both fingers' pivots as sets, all readings together.
       if (residual_at(question, at) > limits.tolerance) continue;
       PairPiece piece;
       piece.box = {Interval{at[0], at[0]}, Interval{at[1], at[1]}};

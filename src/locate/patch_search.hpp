@@ -14,7 +14,7 @@ namespace rollfix::locating {
 void search_patches(const RollCurve& patched, PlaneCurve& other, bool patched_is_a, const PairLimits& limits,
                     std::size_t& budget, PairFindings& findings);
 
-/// A corner of one finger's against a corner of the other's: places, not intervals.
+/// Both fingers on a patch each: each pair of them that fits within the tolerance is one place, not an interval.
 void add_corner_pairs(const ContactEquations& question, const RollCurve& a, const RollCurve& b,
                       const PairLimits& limits, PairFindings& findings);
 

@@ -26,10 +26,12 @@
 namespace rollfix::locating {
 namespace {
 
+// In sensitivities: not defined.
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Curvatures whose differences the slopes of two fingers are: below kNoSlope times them a slope is rounding.
+/// The size of the curvatures whose differences J's entries are, of two fingers: below kNoSlope times it a singular
+/// value is rounding. 1 / P stands in where all curvatures are 0.
 double curvature_scale(const ContactEquations& question, const SlopeSample* samples) {
   double scale = 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {
@@ -42,8 +44,9 @@ double curvature_scale(const ContactEquations& question, const SlopeSample* samp
   return scale;
 }
 
-/// ds/dtheta = 1 / (kappa(t) - kappa(s)), ds/dL = -kappa(t) / (kappa(t) - kappa(s)), of several readings by least
-/// squares.
+/// Error and sensitivity of one finger's crossing: ds/dtheta = 1 / (kappa(t) - kappa(s)) and ds/dL = -kappa(t) /
+/// (kappa(t) - kappa(s)); of several readings by least squares. A double root (no slope) keeps an infinite error and an
+/// empty sensitivity.
 void describe_slopes_of_one(const ContactEquations& question, const SlopeSample* samples, Placement& placement) {
   double square = 0;
   double scale = 0;  // the curvatures whose differences the slopes are
@@ -55,16 +58,21 @@ void describe_slopes_of_one(const ContactEquations& question, const SlopeSample*
     square += slope(k) * slope(k);
     scale = std::max(scale, std::abs(samples[k].start_curvature[0]) + std::abs(samples[k].end_curvature[0]));
   }
+  // |J| as a column: its only singular value.
   const double size = std::sqrt(square);
   if (!(size > kNoSlope * (scale + 1 / question.part.perimeter()))) return;
   placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / size);
   for (std::size_t k = 0; k < question.readings.size(); ++k) {
+    // df_k/ds = slope(k), df_k/dtheta_k = -1, df_k/dL_k = kappa(t_k). A least-squares root moves by -J^+ times the
+    // change of f, J^+ = slope(k) / square.
     placement.sensitivity.per_turn[0].push_back(slope(k) / square);
     placement.sensitivity.per_length[0].push_back(-samples[k].end_curvature[0] * slope(k) / square);
   }
 }
 
-/// J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the facing row [kappa(s0), -kappa(t0)] last.
+/// Error and sensitivity of two fingers' crossing. J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the
+/// facing row [kappa(s0), -kappa(t0)] last. The error is kRootTurn over the least singular value of J, but at least
+/// kRootLength P; where that value is rounding it stays infinite.
 template <int Rows>
 void describe_slopes_of_two(const ContactEquations& question, const SlopeSample* samples, Placement& placement) {
   const std::size_t count = question.readings.size();
@@ -76,13 +84,16 @@ void describe_slopes_of_two(const ContactEquations& question, const SlopeSample*
     jacobian.row(static_cast<Eigen::Index>(k)) << end[0] - start[0], -(end[1] - start[1]);
   }
   if (question.facing) jacobian.row(rows - 1) << start[0], -start[1];
+  // Singular values by J^T J: 2 by 2 however many rows.
   const Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
-  // The least singular value from trace and determinant: no more than two columns.
+  // The eigenvalues of J^T J are the squared singular values: the larger one from trace and determinant, the smaller
+  // one as determinant / larger.
   const double trace = normal.trace();
   const double determinant = normal.determinant();
   const double largest = 0.5 * trace + std::sqrt(std::max(0.0, 0.25 * trace * trace - determinant));
   const double smallest = largest > 0 ? std::sqrt(std::max(0.0, determinant / largest)) : 0;
   if (!(smallest > kNoSlope * curvature_scale(question, samples))) return;
+  // (J^T J)^-1 J^T: J^-1 itself where there are two rows.
   const Eigen::Matrix<double, 2, Rows> inverse = normal.inverse() * jacobian.transpose();
   placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / smallest);
   Sensitivity& sensitivity = placement.sensitivity;
@@ -103,6 +114,7 @@ void describe_slopes_of_two(const ContactEquations& question, const SlopeSample*
 /// Which contacts stand at a convex corner.
 class CornerContacts {
  public:
+  /// `at`: first contacts.
   CornerContacts(const ContactEquations& question, const PerFinger<double>& at) {
     for (std::size_t finger = 0; finger < at.size(); ++finger) {
       first_[finger] = angle_set(question.part, at[finger]).pivot;
@@ -112,18 +124,24 @@ class CornerContacts {
     }
   }
 
+  /// Does the first contact stand there, or the one at the end of a reading?
   bool at_start(std::size_t finger) const { return first_[finger]; }
   bool at_end(std::size_t finger, std::size_t reading) const { return last_[finger][reading]; }
+  /// Does any contact of this finger stand at a convex corner?
   bool holds(std::size_t finger) const {
     return first_[finger] || std::find(last_[finger].begin(), last_[finger].end(), true) != last_[finger].end();
   }
   std::size_t readings() const { return last_[0].size(); }
 
  private:
+  // [finger], and [finger][reading].
   std::array<bool, 2> first_{};
   std::array<boost::container::small_vector<bool, 4>, 2> last_;
 };
 
+/// Sensitivity of a finger that a corner holds. With its start there, s does not move. With an end there, s + L is the
+/// corner, so that ds/dL = -1. With both, L is the length between two corners, and a reading with another L has no such
+/// placement: NaN.
 void describe_held(const CornerContacts& contacts, std::size_t finger, Sensitivity& sensitivity) {
   const bool start = contacts.at_start(finger);
   for (std::size_t k = 0; k < contacts.readings(); ++k) {
@@ -149,11 +167,13 @@ void describe_free(const ContactEquations& question, const PerFinger<double>& at
   std::vector<SlopeSample> samples;
   for (std::size_t k = 0; k < count; ++k) {
     samples.push_back(slope_sample(question.part, question.readings[k], at));
+    // Its equation is met by the pivot at that end, whatever the free finger does.
     if (contacts.at_end(other, k)) continue;
     const SlopeSample& sample = samples.back();
     const auto row = static_cast<Eigen::Index>(k);
     rows(row, 0) = sign * (sample.end_curvature[finger] - sample.start_curvature[finger]);
     if (pivots) rows(row, 1) = 1;
+    // df_k by the other finger's first contact.
     of_other[row] = -sign * (sample.end_curvature[other] - sample.start_curvature[other]);
   }
   if (question.facing) {
@@ -162,13 +182,16 @@ void describe_free(const ContactEquations& question, const PerFinger<double>& at
     of_other[rows.rows() - 1] = -sign * samples[0].start_curvature[other];
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
+  // Fewer independent rows than unknowns: the finger is not determined, all its entries are NaN.
   qr.setThreshold(kNoSlope);
   if (qr.rank() < rows.cols()) rows.setConstant(kNaN);
+  // Row 0 of the pseudo-inverse: how the free finger's contact follows each row's right side.
   const Eigen::VectorXd inverse = (rows.transpose() * rows).inverse().row(0) * rows.transpose();
   for (std::size_t k = 0; k < count; ++k) {
     const double by_turn = inverse[static_cast<Eigen::Index>(k)];
     PerFinger<double> per_length(0.0, 0.0);
     per_length[finger] = -sign * samples[k].end_curvature[finger] * by_turn;
+    // The other finger stays at its corner: where its end stands there, a longer roll starts further back.
     per_length[other] = contacts.at_end(other, k) ? inverse.dot(of_other)  // there dt = -dL
                                                   : sign * samples[k].end_curvature[other] * by_turn;
     sensitivity.per_turn[finger].push_back(by_turn);
@@ -193,16 +216,19 @@ SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFing
 
 void describe_slopes(const ContactEquations& question, const SlopeSample* samples, Placement& placement) {
   placement.error = kInfinity;
+  // A double root, a near miss or a continuum has no derivative: the extent says how far it reaches.
   if (placement.kind != Kind::crossing) return;
   if (question.fingers() == 1) {
     describe_slopes_of_one(question, samples, placement);
   } else if (question.is_overdetermined()) {
     describe_slopes_of_two<Eigen::Dynamic>(question, samples, placement);
   } else {
+    // Two rows: matrices of fixed size, without allocation.
     describe_slopes_of_two<2>(question, samples, placement);
   }
 }
 
+/// Error and sensitivity need no further evaluation: f and both curvatures at the root are the search's sample.
 void PlacementMaker::make_crossing(double root, std::size_t panel, const Interval& extent, const SlopeSample& sample,
                                    Placement& placement) const {
   placement.kind = Kind::crossing;
@@ -221,6 +247,7 @@ void PlacementMaker::make(FoundSet&& found, Placement& placement) const {
   placement.extent = found.extent;
   for (std::size_t finger = 0; finger < question_.fingers(); ++finger) {
     const Interval& extent = found.extent[finger];
+    // Places and arcs get their one name: in [0, P), an arc's end perhaps beyond P.
     placement.extent[finger] = found.whole_loop[finger] ? boundary.full_arc() : boundary.arc(extent.lo, extent.hi);
   }
   for (PerFinger<double> root : found.roots) {
@@ -229,6 +256,7 @@ void PlacementMaker::make(FoundSet&& found, Placement& placement) const {
   }
   placement.family = std::move(found.family);
   placement.family_error = found.family_error;
+  // Theta is set-valued at a corner: residual, error and sensitivity are those of pivots, not of slopes.
   if (placement.kind == Kind::corner) {
     placement.residual = residual_at(question_, found.start);
     describe_corner(found, placement);
@@ -244,6 +272,7 @@ void PlacementMaker::describe_contacts(const PerFinger<double>& start, Placement
   boost::container::small_vector<SlopeSample, 4> samples;
   for (const Reading& reading : question_.readings) samples.push_back({-reading.turn, start, start});
   for (std::size_t finger = 0; finger < start.size(); ++finger) {
+    // Theta and kappa of a contact are used for the residual and for the slopes of every reading.
     const Turning first = turning.at(start[finger]);
     tangents[finger].push_back(first.angle);
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -253,6 +282,7 @@ void PlacementMaker::describe_contacts(const PerFinger<double>& start, Placement
       samples[k].end_curvature[finger] = last.curvature;
     }
   }
+  // One finger's residual checks for corners by itself, and so does that of two on a part with corners.
   const bool plain = start.size() == 2 && question_.part.corners().empty();
   placement.residual = plain ? residual_of(question_, tangents[0], tangents[1]) : residual_at(question_, start);
   describe_slopes(question_, samples.data(), placement);
@@ -277,11 +307,14 @@ void PlacementMaker::describe_corner(const FoundSet& found, Placement& placement
   const std::size_t fingers = question_.fingers();
   placement.error = kRootLength * question_.part.perimeter();
   placement.pivot = pivots_at(question_, found.start, placement.end);
+  // The tangent of a pivot: the middle of those that fit, in (-pi, pi].
   if (fingers == 1) placement.tangent = std::remainder((*placement.pivot)[0].start.middle(), kFullTurn);
   placement.sensitivity = {PerFinger<ShortList<double>>::of(fingers),
                            PerFinger<ShortList<PerFinger<double>>>::of(fingers), PerFinger<double>::of(fingers)};
   const CornerContacts contacts(question_, found.start);
   for (std::size_t finger = 0; finger < fingers; ++finger) {
+    // A held finger follows lengths alone; the other one is determined by what the held one's pivots leave of the
+    // equations. Where neither is held the entries stay empty.
     if (fingers == 1 || contacts.holds(finger)) {
       describe_held(contacts, finger, placement.sensitivity);
     } else if (contacts.holds(1 - finger)) {
@@ -328,6 +361,7 @@ std::string Verdict::places_text() const {
     case ambiguous:
       break;
   }
+  // Places and stretches are counted together; the stretches among them are named.
   const char* noun = stretches == 1 ? "stretch" : "stretches";
   if (stretches == 0) return fmt::format("ambiguous ({})", places);
   if (places == 1) return "ambiguous (1 stretch)";
@@ -337,6 +371,7 @@ std::string Verdict::places_text() const {
 bool Placement::contains(const Boundary& boundary, const PerFinger<double>& s) const {
   const double slack = kLengthAccuracy * boundary.perimeter;
   for (std::size_t finger = 0; finger < s.size(); ++finger) {
+    // Without noise probability is NaN: then the extent, else the 95 % interval.
     const Interval& arc = std::isnan(probability) ? extent[finger] : interval[finger];
     if (!boundary.is_full(arc) && !boundary.contains(arc, s[finger], slack)) return false;
   }
@@ -349,6 +384,7 @@ Verdict verdict_of(Status status, const std::vector<Placement>& placements) {
   std::size_t stretches = 0;
   for (const Placement& placement : placements) {
     if (placement.is_contradicted) continue;
+    // All of a loop fits: such a roll can't tell the place, whatever else is found.
     for (const bool whole_loop : placement.whole_loop) {
       if (whole_loop) return {Verdict::unobservable};
     }

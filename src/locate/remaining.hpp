@@ -13,7 +13,7 @@ namespace rollfix {
 /// What has less than this is not listed ...
 inline constexpr double kLeastListed = 1e-4;
 
-/// ... unless the likeliest has so little itself that a hundredth of it is less.
+/// ... unless the likeliest itself has so little that this share of it, kLeastProbability, is less.
 inline bool is_listed(double probability, double likeliest) {
   return probability > 0 && probability >= std::min(kLeastListed, kLeastProbability * likeliest);
 }
@@ -23,6 +23,7 @@ inline bool is_listed(double probability, double likeliest) {
 /// them is improbable. `all`: the likeliest first.
 template <class All, class ProbabilityOf = std::identity>
 double least_that_counts(const All& all, const ProbabilityOf& probability_of = {}) {
+  // The shortest run of the likeliest that is sure together: if its last member is improbable, that sets the limit.
   double sum = 0;
   for (const auto& each : all) sum += std::invoke(probability_of, each);
   double together = 0;

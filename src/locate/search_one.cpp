@@ -21,6 +21,8 @@
 namespace rollfix::locating {
 namespace {
 
+/// Moves the first contact along stretches of the boundary and searches f of one reading on every pair of spirals that
+/// the roll's two ends pass.
 class Sweep {
  public:
   Sweep(const ContactEquations& question, const LocateOptions& options)
@@ -50,30 +52,38 @@ class Sweep {
       look_at(range);
       return;
     }
+    // On every turn of the loop all s < here are decided, and from_start and from_end are Theta and kappa at s = here
+    // and at its end, as limits from above.
     Cursor start = Cursor::ahead(turning_, range.lo);
     Cursor end = Cursor::ahead(turning_, range.lo + length_);
     auto [from_start, from_end] = enter(start, end, range.lo);
     double here = range.lo;
     while (here < range.hi && search_.findings.unresolved.empty()) {
       const SpiralPair pair = pair_of(start, end);
+      // The s at which the start passes to the next spiral, and the s at which the end does.
       const double start_passes = pair.start.hi;
       const double end_passes = pair.end.hi - pair.offset;
       double next = std::min({start_passes, end_passes, range.hi});
       if (range.hi - next <= same_place_) next = range.hi;
+      // Both may pass at once, as where L is the period of a symmetric part.
       const bool start_moves = start_passes - next <= same_place_ && !start.is_last();
       const bool end_moves = end_passes - next <= same_place_ && !end.is_last();
 
+      // A spiral's own end costs no evaluation, so that a cut takes one evaluation at most.
       const Turning at_start = start_moves ? end_of(pair.start, next) : turning_.on_spiral(pair.start, next);
       const Turning at_end =
           end_moves ? end_of(pair.end, next + pair.offset) : turning_.on_spiral(pair.end, next + pair.offset);
       search_.findings.counts.evaluations += (start_moves ? 0 : 1) + (end_moves ? 0 : 1);
+      // Cuts that differ by rounding leave nothing between them.
       if (next - here > same_place_) {
         search_.run(pair, pair.sample(here, from_start, from_end), pair.sample(next, at_start, at_end));
       }
+      // The budget is used up: what lies ahead is not decided either.
       if (!search_.findings.unresolved.empty()) search_.findings.unresolved.back().hi = range.hi;
 
       if (next >= range.hi && !end_moves) break;
       if (end_moves) {
+        // Theta on both sides of the joint that the end passes, unwrapped. Between them f(next) is a set.
         const double before = pair.end.end.angle + end.lift();
         end.advance();
         const double after = end.angle_after();
@@ -84,6 +94,7 @@ class Sweep {
       }
       if (next >= range.hi) break;
       if (start_moves) start.advance();
+      // The same place, as the limits from above: on the spirals that begin there.
       const SpiralPair onwards = pair_of(start, end);
       from_start = start_moves ? start_of(start.spiral(), next) : at_start;
       from_end = end_moves ? start_of(end.spiral(), next + onwards.offset) : at_end;
@@ -92,8 +103,8 @@ class Sweep {
   }
 
  private:
-  /// A single place: what an open curve has for a roll of its own length, or what another reading's least tolerance
-  /// left. Across it f changes by its slope.
+  /// A single place: the only first contact of an open curve for a roll as long as the curve, or what the narrowest
+  /// tolerance of another reading left. |f| changes across it by its width times the slope.
   void look_at(const Interval& place) {
     const double s = place.middle();
     const double residual = residual_at({part_, {reading_, 1}}, s);
@@ -103,6 +114,8 @@ class Sweep {
     search_.findings.roots.push_back({s, residual <= kTurnAccuracy});
   }
 
+  /// The pair of spirals that the start and the end of the roll are on. The end's laps are taken off L and off theta,
+  /// so that Theta is evaluated on the first lap only.
   SpiralPair pair_of(const Cursor& start, const Cursor& end) const {
     return {turning_, start.spiral(), end.spiral(), length_ - end.shift(), reading_->turn - end.lift()};
   }
@@ -140,6 +153,7 @@ class Sweep {
   void pass_corner(double s, double start_angle, double before, double after) {
     const Corner corner{s, after - before};
     if (std::abs(corner.turn) <= kTurnAccuracy || corner.is_concave()) return;
+    // f(s) is anything in [least, most]: `distance` is how far 0 is outside.
     const double least = std::min(before, after) - start_angle - reading_->turn;
     const double most = std::max(before, after) - start_angle - reading_->turn;
     const double distance = std::max({least, -most, 0.0});
@@ -162,6 +176,7 @@ class Sweep {
 void search_stretches(const ContactEquations& question, const Interval& range, const Stretches& stretches,
                       Sweep& sweep) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
+  // After an unresolved interval there is no further run: it is widened to the end of the range below.
   sweep.ask(question.readings.front());
   Findings& found = sweep.found();
   for (const Interval& stretch : stretches) {
@@ -175,6 +190,7 @@ void search_stretches(const ContactEquations& question, const Interval& range, c
 /// Pieces that touch are one: else what a reading cuts into pieces, though it allows all of it, as a finger at rest
 /// does, a further one cuts again and again. Continua stay apart from what is beside them.
 void join_touching(Pieces& pieces) {
+  // Pieces are in rising order; [0, last] are joined already.
   const auto is_plain = [](const Piece& piece) { return !piece.exact && !piece.corner; };
   std::size_t last = 0;
   for (std::size_t k = 1; k < pieces.size(); ++k) {
@@ -189,6 +205,8 @@ void join_touching(Pieces& pieces) {
 
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
 void narrow(const ContactEquations& question, const Reading& further, double tolerance, Sweep& sweep) {
+  // Off corners the readings before were applied already. A pivot is shared by all readings, so all are applied
+  // together.
   const ContactEquations its_own{question.part, {&further, 1}};
   Findings& kept = sweep.found();
   Pieces pieces = std::exchange(kept.pieces, {});
@@ -196,12 +214,14 @@ void narrow(const ContactEquations& question, const Reading& further, double tol
   sweep.ask(further);
   for (const Piece& piece : pieces) {
     if (!kept.unresolved.empty()) {
+      // Given up: what is left of the earlier readings is listed instead.
       kept.unresolved.push_back({piece.lo, piece.hi});
     } else if (piece.lo == piece.hi) {
       const double residual = residual_at(piece.corner ? question : its_own, piece.lo);
       if (residual <= tolerance) kept.pieces.push_back(piece);
     } else {
       const std::size_t first = kept.pieces.size();
+      // f = 0 on the piece only if every reading's f is.
       sweep.run({piece.lo, piece.hi});
       for (std::size_t k = first; k < kept.pieces.size(); ++k) kept.pieces[k].exact &= piece.exact;
     }
@@ -217,12 +237,15 @@ void look_at_start(const ContactEquations& question, const Corner& corner, doubl
   findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
 }
 
+/// Examines each convex corner on the stretches as a first contact. The sweep takes
+/// the two limits of Theta there, not the angles in between.
 void add_start_corners(const ContactEquations& question, const Stretches& stretches, double tolerance,
                        Findings& findings) {
   const Part& part = question.part;
   const std::vector<Corner>& corners = part.corners();
   if (corners.empty() || stretches.empty()) return;
   const bool ends_at_seam = part.closed() && stretches.back().hi >= part.perimeter();
+  // The corner at s = 0 is also the end, s = P, of the last stretch.
   if (corners.front().s == 0 && ends_at_seam && stretches.front().lo > 0) {
     look_at_start(question, corners.front(), tolerance, findings);
   }
@@ -252,6 +275,8 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
 
 }  // namespace
 
+/// One finger: passes over what the tree excludes, sweeps the rest for the first reading, narrows by each further one,
+/// adds first contacts at corners, and makes placements. `Search::status` is left to the caller.
 Search search_one(const ContactEquations& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
   const Candidates candidates = find_candidates(question, range, options.tolerance);

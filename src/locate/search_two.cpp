@@ -45,12 +45,15 @@ Search search_two(const ContactEquations& question, const LocateOptions& options
   RollCurve b(part, equations_of(question, 1), range_b);
   PairFindings findings;
   std::size_t budget = options.budget;
+  // All pairs (s, t), pivots of one contact at a time included; then first contacts at which several contacts of a
+  // finger pivot at once.
   BoxSearch(a, b, limits, budget, findings).run();
   search_patches(a, b, true, limits, budget, findings);
   search_patches(b, a, false, limits, budget, findings);
   add_corner_pairs(question, a, b, limits, findings);
 
   Search search;
+  // Connected sets of what all of these found are the placements.
   search.placements = make_placements(question, join_pieces(part, findings, limits.same_place));
   for (const PairBox& box : findings.unresolved) search.unresolved.emplace_back(box);
   search.counts = findings.counts;

@@ -13,9 +13,10 @@ namespace rollfix::locating {
 /// Stretches of the boundary; mostly there are few.
 using Stretches = boost::container::small_vector<Interval, 4>;
 
+/// What the tree over the part's spirals leaves of the first contacts.
 struct Candidates {
   Stretches stretches;
-  SearchCounts counts;
+  SearchCounts counts;  // pairs of blocks that were looked at
 };
 
 /// The stretches of `range`, in rising order and apart, on which one finger's first contact can lie: everywhere else

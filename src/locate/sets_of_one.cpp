@@ -42,12 +42,15 @@ struct Cluster {
 };
 using Clusters = boost::container::small_vector<Cluster, kFewAnswers>;
 
+/// Joins pieces that touch, in rising order. Sorts the pieces. On a closed part the last cluster goes on across s = 0
+/// where both ends of the boundary are covered; one that covers all of it is a whole loop.
 Clusters clusters_of(const Part& part, Pieces& pieces) {
   Clusters clusters;
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
   if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
   for (const Piece& piece : pieces) {
+    // Pieces within rounding of each other are one connected set.
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
       clusters.push_back({piece.lo, piece.hi, piece.exact, piece.corner});
     } else {
@@ -59,6 +62,7 @@ Clusters clusters_of(const Part& part, Pieces& pieces) {
   }
   if (clusters.empty() || !part.closed()) return clusters;
   const double period = part.perimeter();
+  // s = 0 and s = P are one place.
   const bool joined = clusters.front().lo <= same_place && clusters.back().hi >= period - same_place;
   if (joined && clusters.size() == 1) {
     Cluster& only = clusters.front();
@@ -88,6 +92,7 @@ FoundRoots handed_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
     handed.push_back(root);
     return true;
   };
+  // Roots and clusters are both in rising order: one pass.
   FoundRoots left;  // that no cluster holds before s = 0 is crossed
   auto next = clusters.begin();
   for (const Root& root : roots) {
@@ -102,6 +107,7 @@ FoundRoots handed_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
   return handed;
 }
 
+/// Makes one placement of each cluster: its roots, its kind and, where there is no root, the best place.
 class SetsOfOne {
  public:
   SetsOfOne(const ContactEquations& question, const FoundRoots& roots)
@@ -112,9 +118,10 @@ class SetsOfOne {
         maker_(question),
         period_(question.part.perimeter()) {}
 
+  /// The placement of a cluster: its kind, its roots, and as start the first root or the best place.
   void make(const Cluster& cluster, Placement& placement) const {
     const Interval extent{cluster.lo, cluster.hi};
-    // By far the most frequent answer: one reading, one simple root.
+    // The most frequent answer: one reading, one simple root. The search has its sample already.
     if (readings_.size() == 1 && readings_[0].is_exact() && cluster.root_count == 1 && roots_of(cluster)->crossing &&
         !cluster.is_joined) {
       const Root& root = *roots_of(cluster);
@@ -132,8 +139,10 @@ class SetsOfOne {
  private:
   // ---- roots ----
 
+  /// The first of the cluster's `root_count` roots.
   const Root* roots_of(const Cluster& cluster) const { return handed_out_.data() + cluster.first_root; }
 
+  /// f and its slope at any s, eqs. (4) and (5), Theta taken as the limit from above.
   ResidualSample sample(const Reading& reading, double s) const {
     const Turning at_start = turning_.at(s);
     const Turning at_end = turning_.at(s + reading.length[0]);
@@ -147,6 +156,7 @@ class SetsOfOne {
     for (std::size_t k = 0; k < cluster.root_count; ++k) {
       const Root& root = roots_of(cluster)[k];
       Root candidate = root;
+      // One reading: the search said whether f = 0 there. Several: f of all of them must be.
       if (readings_.size() == 1) {
         if (!root.exact) continue;
       } else {
@@ -158,6 +168,7 @@ class SetsOfOne {
         }
         if (residual_at(question_, candidate.s) > kRootTurn) continue;
       }
+      // One root that two readings, or two neighbouring intervals, found: a crossing only if each find says so.
       if (!found.empty() && same_root(found.back(), candidate)) {
         found.back().crossing &= candidate.crossing;
         found.back().corner |= candidate.corner;
@@ -169,8 +180,8 @@ class SetsOfOne {
     return found;
   }
 
-  /// Is it near enough to a root of each reading's f for one place to be all their roots? Where it is known to
-  /// kRootTurn over its own slope another f may be off by its slope times that.
+  /// Can one place be a root of every reading's f? A root is known to kRootTurn over its own slope, so another f may be
+  /// off there by its slope times that. Compared without a division, so that slopes of 0 are allowed.
   bool may_be_shared(const Root& root) const {
     const double own = std::abs(root.sample.slope());
     return std::all_of(readings_.begin(), readings_.end(), [&](const Reading& reading) {
@@ -180,7 +191,8 @@ class SetsOfOne {
     });
   }
 
-  /// Least squares over all the readings: the steepest decide.
+  /// Where the sum of all f_k^2 is least, by Gauss-Newton steps from s that stay in the cluster: steep readings weigh
+  /// most.
   double polished_together(double s, const Cluster& cluster) const {
     for (int round = 0; round < 3; ++round) {
       double normal = 0;
@@ -191,6 +203,7 @@ class SetsOfOne {
         normal += at.slope() * at.slope();
         right -= at.slope() * at.value;
       }
+      // Where all slopes are 0 the step is no number and ends the loop.
       const double next = s + right / normal;
       if (!(next >= cluster.lo && next <= cluster.hi)) break;
       s = next;
@@ -226,6 +239,7 @@ class SetsOfOne {
     return best;
   }
 
+  /// A minimum of the largest |f_k| in the cluster, by golden sections; the least of all where there is only one.
   double golden_section(const Cluster& cluster) const {
     constexpr double kRatio = 0.6180339887498949;
     double lo = cluster.lo;
@@ -234,6 +248,7 @@ class SetsOfOne {
     double inner_hi = lo + kRatio * (hi - lo);
     double value_lo = residual_at(question_, inner_lo);
     double value_hi = residual_at(question_, inner_hi);
+    // lo < inner_lo < inner_hi < hi, and the residual is known at both inner places; each round evaluates one more.
     while (hi - lo > kPolished * period_) {
       if (value_lo <= value_hi) {
         hi = inner_hi;
@@ -255,11 +270,14 @@ class SetsOfOne {
 
   // ---- what kind ----
 
+  /// The kind of the connected set (search.md, "MULTIPLE SOLUTIONS"); `start` is its first root or its best place.
   Kind kind_of(const Cluster& cluster, const Roots& roots, const Root& start) const {
     const bool is_wide = cluster.hi - cluster.lo > kLengthAccuracy * period_;
+    // An interval on which f = 0, or on which readings that are intervals fit.
     if (cluster.exact || (is_wide && question_.is_open())) return Kind::stretch;
     if (start.corner) return Kind::corner;
     if (roots.size() == 1 && roots.front().crossing && !cluster.is_joined) return Kind::crossing;
+    // A whole loop has no ends at which to compare signs.
     if (cluster.whole_loop) return roots.empty() ? Kind::touching : Kind::crossing;
     for (const Reading& reading : readings_) {
       if (reading.is_exact() && changes_sign(reading, cluster)) return Kind::crossing;
@@ -277,10 +295,12 @@ class SetsOfOne {
     return std::abs(hi - lo) > kTurnAccuracy && std::abs(end.slope()) > slope_noise(end);
   }
 
+  /// A slope of f below this is rounding: kNoSlope times the curvatures that it is the difference of, or times 1 / P.
   double slope_noise(const ResidualSample& at) const {
     return kNoSlope * (std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period_);
   }
 
+  /// f at s as the limit from one side, at both the start and the end of the roll.
   double one_sided(const Reading& reading, double s, Side side) const {
     return turning_.angle(s + reading.length[0], side) - turning_.angle(s, side) - reading.turn;
   }
@@ -295,6 +315,7 @@ class SetsOfOne {
 
 }  // namespace
 
+/// One placement for each cluster, ordered by start: a cluster across s = 0 may start last and come first.
 std::vector<Placement> make_placements(const ContactEquations& question, Findings found) {
   Clusters clusters = clusters_of(question.part, found.pieces);
   const FoundRoots roots = handed_out(question.part, found.roots, clusters);

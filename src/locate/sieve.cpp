@@ -23,15 +23,18 @@
 namespace rollfix {
 namespace {
 
-// Or by as little as this many pieces allow.
+// A continuum's line is cut into about this many pieces at most: of a long one the pieces are longer than the step that
+// was asked for.
 constexpr int kMostPieces = 400;
 
+/// How far segment k of the family's line, from point k - 1 to k, moves the finger that it moves further; length.
 double family_step(const Placement& placement, std::size_t k) {
   const PerFinger<double>& from = placement.family[k - 1];
   const PerFinger<double>& to = placement.family[k];
   return std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
 }
 
+/// Part i of `count` equal parts of segment k, as a box of first contacts, widened by the line's error.
 PerFinger<Interval> piece(const Placement& placement, std::size_t k, int i, int count) {
   PerFinger<Interval> box = placement.extent;
   for (std::size_t f = 0; f < 2; ++f) {
@@ -44,13 +47,15 @@ PerFinger<Interval> piece(const Placement& placement, std::size_t k, int i, int 
   return box;
 }
 
-// Lengths that come from elsewhere are rounded: this share of the perimeter.
+// Lengths that are given or were computed elsewhere, as those in a Reach, are rounded to this share of the perimeter.
 constexpr double kGivenRounding = 1e-9;
 
+/// Are two places of the boundary one, but for the rounding of given lengths? Across s = 0 as elsewhere.
 bool same_place(const Part& part, double one, double two) {
   return part.boundary().distance(one, two) <= kGivenRounding * part.perimeter();
 }
 
+/// What the finger can do at the convex corner at s; nullptr: no such corner there.
 const PivotReach* pivot_at(const Part& part, const Reach& reach, double s) {
   for (const PivotReach& pivot : reach.pivots) {
     if (same_place(part, pivot.s, s)) return &pivot;
@@ -70,6 +75,7 @@ Interval near(const Interval& angles, const Interval& pivot) {
   return {angles.lo + shift, angles.hi + shift};
 }
 
+/// Have they an angle in common, or come as near as `slack`?
 bool meets(const Interval& one, const Interval& two, double slack) {
   return one.lo <= two.hi + slack && two.lo <= one.hi + slack;
 }
@@ -82,6 +88,8 @@ double slack_of_tangents(const Part& part) {
 /// Can a finger that pivots at a corner between these tangents come from the boundary before it or after it, or go
 /// there? Neither asked: can it be there at all?
 bool can_pivot(const PivotReach& pivot, const Interval& tangents, bool before, bool after, double slack) {
+  // One interval of possible angles must do: between two of them the finger would enter the part. From the boundary
+  // before the corner it must reach down to Theta's limit there, to the boundary after it up to the other limit.
   const Interval wanted = near(tangents, pivot.whole);
   return std::any_of(pivot.angles.begin(), pivot.angles.end(), [&](const Interval& angles) {
     if (before && angles.lo > pivot.whole.lo) return false;
@@ -90,6 +98,7 @@ bool can_pivot(const PivotReach& pivot, const Interval& tangents, bool before, b
   });
 }
 
+/// The finger stands at the convex corner at s and can't pivot there as it would have to.
 Obstruction at_pivot(const Part& part, const Reach& reach, double s) {
   return {part.boundary().base(s), false, deepest_hit(part, reach.curvature, {s, s})};
 }
@@ -100,10 +109,12 @@ Obstruction beyond(const Part& part, const Reach& reach, double from, double to)
     return {part.boundary().base(from), true, {from, from, 0, part.point(from)}};
   const PivotReach* pivot = pivot_at(part, reach, part.boundary().base(from));
   if (pivot != nullptr && !pivot->is_whole()) return at_pivot(part, reach, from);
+  // Look as far as the nearest end of an arc in the direction of the roll.
   double end = to;
   for (const Interval& arc : reach.arcs) {
     for (const double edge : {arc.lo, arc.hi}) {
       const double ahead = part.boundary().ahead(from, edge);
+      // How far the arc's end is from `from`, below 0 where the roll goes backwards.
       const double signed_ahead = to >= from || !part.closed() ? ahead : ahead - part.perimeter();
       const double least = kGivenRounding * part.perimeter();
       if (to >= from && signed_ahead > least) end = std::min(end, from + signed_ahead);
@@ -124,9 +135,12 @@ bool can_pivot(const Part& part, const Reach& reach, const Placement& placement,
   const Pivot& tangents = (*placement.pivot)[finger];
   const double slack = slack_of_tangents(part);
   const PivotReach* start = pivot_at(part, reach, placement.start[finger]);
+  // A roll that goes back from the corner leaves it by the boundary before it, one that goes forwards by that after it.
   if (start != nullptr && !can_pivot(*start, tangents.start, roll.lo<0, roll.hi> 0, slack)) return false;
   const PivotReach* end = pivot_at(part, reach, placement.end[finger]);
   if (end == nullptr) return true;
+  // It arrives by the boundary before the corner if it went forwards and no row went further, likewise by that after it
+  // if it went backwards. Else it is only asked whether it can be there at all.
   return can_pivot(*end, tangents.end, last > 0 && last >= roll.hi, last < 0 && last <= roll.lo, slack);
 }
 
@@ -146,15 +160,20 @@ struct Ball {
   double radius = 0;
 };
 
+/// The centre of a disk that touches somewhere in `contacts`. The contact is within half the width of p(middle), and
+/// the normal turns by at most half the spread of the tangent's angles, which moves the centre by that times the
+/// radius.
 Ball centre_of(const Part& part, double radius, const Interval& contacts) {
   const Interval angles = tangents_over(part, contacts);
   const double angle = angles.middle();
+  // The tangent turned by -90 degrees: outward, for the material is on the left.
   const Vec2 normal(std::sin(angle), -std::cos(angle));
   return {part.point(contacts.middle()) + radius * normal, 0.5 * contacts.width() + 0.5 * radius * angles.width()};
 }
 
-/// How far a place in a ball is behind the line of a jaw that touches in an interval of s, at least: along the part's
-/// outward normal there.
+/// The least (c - p) . n for c in the ball and a jaw that touches at p in an interval of s, n the part's outward normal
+/// there: how far c lies on the jaw's side of its line. Both c and p move by `moved` together, and n turns by half the
+/// spread of the angles, which changes the product by that times |c - p| at most.
 double least_depth(const Part& part, const Interval& contacts, const Ball& ball) {
   const Interval angles = tangents_over(part, contacts);
   const Vec2 normal(std::sin(angles.middle()), -std::cos(angles.middle()));
@@ -163,9 +182,11 @@ double least_depth(const Part& part, const Interval& contacts, const Ball& ball)
   return from_contact.dot(normal) - moved - 0.5 * angles.width() * (from_contact.norm() + moved);
 }
 
-/// Takes out what the fingers can't do.
+/// Decides for one placement after the other whether the fingers can do the whole roll from it.
 class Sieve {
  public:
+  /// The arguments are those of `drop_unreachable`. Lengths are shortened by `length_error` before they are asked
+  /// about, so that only what is surely impossible is.
   Sieve(const Part& part, const PerFinger<Reach>& reach, const std::vector<Reading>& readings,
         const std::vector<Reading>& more, double length_error, bool may_overlap)
       : part_(part), reach_(reach), length_error_(length_error), last_(PerFinger<double>::of(reach.size())) {
@@ -180,6 +201,7 @@ class Sieve {
       for (const Reading& reading : rolls_) {
         roll = {std::min(roll.lo, reading.length[finger]), std::max(roll.hi, reading.length[finger])};
       }
+      // Each end is taken back by the error, not beyond the first contact.
       roll = {std::min(0.0, roll.lo + length_error), std::max(0.0, roll.hi - length_error)};
       if (!readings.empty()) last_[finger] = readings.back().length[finger];
     }
@@ -188,13 +210,16 @@ class Sieve {
 
   /// Why a placement is impossible; nothing when it may be possible.
   std::optional<Impossible> look_at(const Placement& placement) const {
+    // Reach first: a placement goes if every piece of it leaves the reach, or a pivot is impossible.
     const std::vector<PerFinger<Interval>> boxes = boxes_of(placement);
     const auto is_beyond = [&](const PerFinger<Interval>& box) { return leaves_reach(box); };
     if (!can_pivot(placement) || std::all_of(boxes.begin(), boxes.end(), is_beyond)) return beyond_reach(placement);
     if (!must_be_apart_) return std::nullopt;
+    // Then both together: pieces that leave the reach, and pieces in which the fingers overlap.
     const auto is_out = [&](const PerFinger<Interval>& box) { return leaves_reach(box) || overlaps(box); };
     if (!std::all_of(boxes.begin(), boxes.end(), is_out)) return std::nullopt;
     Impossible found{placement, Impossible::Reason::overlap, 0, {}, 0, 0};
+    // Impossible. The instant that is reported is the one of the deepest overlap from the placement's own start.
     const PerFinger<Interval> start(Interval{placement.start[0], placement.start[0]},
                                     Interval{placement.start[1], placement.start[1]});
     for (std::size_t k = 0; k < rolls_.size(); ++k) {
@@ -207,6 +232,7 @@ class Sieve {
   }
 
  private:
+  /// Can each finger pivot as the placement's corners ask?
   bool can_pivot(const Placement& placement) const {
     for (std::size_t finger = 0; finger < reach_.size(); ++finger) {
       if (!rollfix::can_pivot(part_, reach_[finger], placement, finger, roll_[finger], last_[finger])) return false;
@@ -214,6 +240,7 @@ class Sieve {
     return true;
   }
 
+  /// Does a finger leave its reach from wherever in the box it starts?
   bool leaves_reach(const PerFinger<Interval>& box) const {
     for (std::size_t finger = 0; finger < reach_.size(); ++finger) {
       if (!can_roll(reach_[finger], box[finger], roll_[finger])) return true;
@@ -240,6 +267,7 @@ class Sieve {
     return found;
   }
 
+  /// At some instant the fingers overlap by more than the larger slack, from wherever in the box they started.
   bool overlaps(const PerFinger<Interval>& box) const {
     const double slack = std::max(reach_[0].slack, reach_[1].slack);
     for (std::size_t k = 0; k < rolls_.size(); ++k) {
@@ -255,6 +283,7 @@ class Sieve {
     double depth = 0;
     std::array<Ball, 2> balls;
     for (const std::size_t finger : {0U, 1U}) {
+      // Any two centres are at most as far apart as the middles and both balls' radii together.
       const double radius = 1 / reach_[finger].curvature;
       balls[finger] = centre_of(part_, radius, contacts(box, instant, finger));
       depth += radius - balls[finger].radius;
@@ -262,22 +291,24 @@ class Sieve {
     return depth - (balls[0].centre - balls[1].centre).norm();
   }
 
-  /// The same of a jaw, which has no ends, and a disk.
+  /// The same of a jaw and a disk: the disk reaches beyond the jaw's line by its radius and by how far its centre is
+  /// behind that line. The jaw has no ends.
   double depth_under_jaw(const PerFinger<Interval>& box, std::size_t instant, std::size_t jaw) const {
     const double radius = 1 / reach_[1 - jaw].curvature;
     const Ball centre = centre_of(part_, radius, contacts(box, instant, 1 - jaw));
     return radius + least_depth(part_, contacts(box, instant, jaw), centre);
   }
 
-  /// Where a finger touches at an instant that has started in the box.
+  /// Where a finger that started in the box touches at an instant: not wrapped, widened by the length's error.
   Interval contacts(const PerFinger<Interval>& box, std::size_t instant, std::size_t finger) const {
     const double length = rolls_[instant].length[finger];
     const double error = instant > 0 ? length_error_ : 0;
     return {box[finger].lo + length - error, box[finger].hi + length + error};
   }
 
-  /// What a placement consists of.
+  /// The boxes of first contacts that a placement is looked at in.
   std::vector<PerFinger<Interval>> boxes_of(const Placement& placement) const {
+    // Short against the radii, so that the balls of the fingers' centres stay small.
     double step = part_.perimeter();
     for (const Reach& reach : reach_) {
       if (reach.curvature > 0) step = std::min(step, kPiece / reach.curvature);
@@ -296,6 +327,7 @@ class Sieve {
 
 }  // namespace
 
+/// Corners within rounding of an end count as in the interval: angle_set has their whole set.
 Interval tangents_over(const Part& part, const Interval& contacts) {
   Interval angles = angles_over(part.turning(), contacts);
   for (const double end : {contacts.lo, contacts.hi}) {
@@ -321,10 +353,12 @@ std::vector<PerFinger<Interval>> pieces_of(const Placement& placement, double st
 bool can_roll(const Reach& reach, const Interval& starts, const Interval& roll) {
   if (reach.whole_loop) return true;
   const double rounding = kGivenRounding * reach.perimeter;
+  // The first contacts for which all of s + roll is on this arc.
   const auto holds = [&](const Interval& arc) {
     return reach.boundary().intersects({arc.lo - roll.lo - rounding, arc.hi - roll.hi + rounding}, starts);
   };
   if (std::any_of(reach.arcs.begin(), reach.arcs.end(), holds)) return true;
+  // No arc holds the roll, and it is a roll.
   if (roll.width() > 2 * rounding) return false;
   // A finger that does not roll may pivot where it can't leave the corner.
   return std::any_of(reach.pivots.begin(), reach.pivots.end(), [&](const PivotReach& pivot) {
@@ -337,6 +371,7 @@ std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, 
   const std::optional<Interval> arc = reach.arc_at(s);
   if (!arc) {
     Obstruction here = at_pivot(part, reach, s);
+    // The finger can stand at the first contact, but not go on from there.
     if (here.hit.depth <= reach.slack) here = beyond(part, reach, s, roll.hi > 0 ? s + roll.hi : s + roll.lo);
     return here;
   }

@@ -43,15 +43,19 @@ double ChordTurns::at(std::size_t k) const {
 /// The turn, by the length that it takes.
 double ChordTurns::curvature(std::size_t k) const {
   if (is_open_end(k)) return 0;
+  // Half the length of both chords belongs to the point.
   const double length = (points_[k] - points_[previous(k)]).norm() + (points_[next(k)] - points_[k]).norm();
   return 2 * at(k) / length;
 }
 
 bool ChordTurns::goes_on(std::size_t k, double least) const {
   const auto bends_along = [&](const auto& step) {
+    // The first point on this side that turns by less than `least`: those that turn more may be part of the same nose.
+    // Once around without one: every point turns like a corner, as on a polygon.
     std::size_t neighbour = step(k);
     std::size_t steps = 0;
     while (std::abs(at(neighbour)) >= least && ++steps < points_.size()) neighbour = step(neighbour);
+    // It turns the same way, and not by much less.
     return steps < points_.size() && at(neighbour) * at(k) > 0 &&
            std::abs(at(neighbour)) >= kNeighbourShare * std::abs(at(k));
   };
@@ -63,6 +67,7 @@ bool ChordTurns::is_nose(std::size_t k, double least) const {
   if (!goes_on(k, least)) return false;
   const auto bends_more = [&](const auto& step) {
     std::size_t neighbour = step(k);
+    // Ends, because goes_on() found such a point.
     while (std::abs(at(neighbour)) >= least) neighbour = step(neighbour);
     return std::abs(curvature(neighbour)) >= kNoseGrowth * std::abs(curvature(step(neighbour)));
   };
@@ -72,6 +77,7 @@ bool ChordTurns::is_nose(std::size_t k, double least) const {
 
 std::vector<std::size_t> corners_of_points(const std::vector<Vec2>& points, bool closed, bool airfoil) {
   const ChordTurns turns(points, closed);
+  // The extreme points by x; for an airfoil, whose chord lies along x.
   const auto [nose, tail] =
       std::minmax_element(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
   const double trailing_edge = tail->x() - kTrailingEdge * (tail->x() - nose->x());
@@ -86,7 +92,7 @@ std::vector<std::size_t> corners_of_points(const std::vector<Vec2>& points, bool
 
 namespace {
 
-/// Of a longer arm not every point is looked at: more would hardly make its direction any better.
+/// Of an arm with more points than this only every second, third, ... one is taken: the direction is good enough then.
 constexpr std::size_t kArmPoints = 48;
 
 /// The points on one side of a point.
@@ -95,22 +101,26 @@ struct Arm {
   std::size_t count = 0;          // how many points it reaches over
 };
 
+/// Finds the corners of a noisy scan. Each point costs its arms: at most kArmPoints points or so on either side.
 class ScanCorners {
  public:
   ScanCorners(const std::vector<Vec2>& points, bool closed, double reach)
       : points_(points), closed_(closed), reach_(reach) {}
 
+  /// The points that turn by corner_angle or more, and by more than any other within reach.
   std::vector<std::size_t> find(double corner_angle) {
     const std::size_t count = points_.size();
     turns_.assign(count, 0);
     reaches_.assign(count, {0, 0});
     std::pair<std::size_t, std::size_t> last = {1, 1};  // neighbours' arms are about as long
+    // First the turn at every point, between the lines fitted to its two arms; then the largest of each neighbourhood.
     for (std::size_t i = 0; i < count; ++i) {
       const Arm before = arm(i, false, last.first);
       const Arm after = arm(i, true, last.second);
       last = {before.count, after.count};
       reaches_[i] = last;
       const bool has_both = before.count > 0 && after.count > 0;
+      // The arm before, seen forwards, against the arm after. Ends of an open scan have one arm and no turn.
       if (has_both) turns_[i] = std::abs(angle_between(-before.direction, after.direction));
     }
     std::vector<std::size_t> corners;
@@ -133,8 +143,11 @@ class ScanCorners {
     return true;
   }
 
+  /// The arm of point i on one side: the points up to `reach_` away along the scan, and at least the neighbour.
+  /// `expected`: how many points it has, probably; of many only every stride-th is taken.
   Arm arm(std::size_t i, bool forward, std::size_t expected) const {
     const std::size_t stride = std::max<std::size_t>(1, expected / kArmPoints);
+    // Sums of the points as seen from point i, and of their products: enough for the line of least squares.
     Vec2 sum = Vec2::Zero();
     Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
     double taken = 1;  // the point itself
@@ -144,6 +157,8 @@ class ScanCorners {
       if (!step(i, forward, steps, j)) break;
       const Vec2 from = points_[j] - points_[i];
       const bool is_beyond = from.squaredNorm() > reach_ * reach_;
+      // Beyond the reach, and there are points within it: the arm ends. With none within it the neighbour alone is the
+      // arm.
       if (is_beyond && result.count > 0) break;
       if (is_beyond && stride > 1) return arm(i, forward, 1);  // sparser points than at the neighbour
       sum += from;
@@ -158,12 +173,14 @@ class ScanCorners {
 
   /// Of the line that is nearest to the points in the least-squares sense, pointing to where they are.
   static Vec2 line_direction(const Vec2& sum, const Eigen::Matrix2d& squares, double count) {
+    // The covariance times the count. Its larger principal axis has the angle 1/2 atan2(2 s_xy, s_xx - s_yy).
     const Eigen::Matrix2d spread = squares - sum * sum.transpose() / count;
     const double angle = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
     const Vec2 direction(std::cos(angle), std::sin(angle));
     return direction.dot(sum) < 0 ? Vec2(-direction) : direction;
   }
 
+  /// Whether no point within reach on either side turns by more; of equals the first one is taken.
   bool is_most(std::size_t i) const {
     for (const bool forward : {false, true}) {
       const std::size_t reach = forward ? reaches_[i].second : reaches_[i].first;
@@ -180,9 +197,9 @@ class ScanCorners {
 
   const std::vector<Vec2>& points_;
   bool closed_;
-  double reach_;
-  std::vector<double> turns_;
-  std::vector<std::pair<std::size_t, std::size_t>> reaches_;
+  double reach_;                                              // length
+  std::vector<double> turns_;                                 // at each point, radians, in [0, pi]
+  std::vector<std::pair<std::size_t, std::size_t>> reaches_;  // points of each arm, before and after
 };
 
 }  // namespace

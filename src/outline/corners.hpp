@@ -8,11 +8,13 @@
 
 namespace rollfix {
 
-/// How the chords between points turn, to the left; at an open end not at all.
+/// How the chords between points turn, to the left; at an open end not at all. Keeps a reference to the points, of
+/// which neighbours differ.
 class ChordTurns {
  public:
   ChordTurns(const std::vector<Vec2>& points, bool closed) : points_(points), closed_(closed) {}
 
+  /// The turn at point k, radians, in (-pi, pi]; 0 at an open end.
   double at(std::size_t k) const;
 
   /// Whether the curve bends on both sides of this point as it does here, behind those that turn by `least` as well: a
@@ -23,9 +25,11 @@ class ChordTurns {
   bool is_nose(std::size_t k, double least) const;
 
  private:
+  /// Cyclic, also for open points: `at` is 0 at their ends, before a neighbour is asked for.
   std::size_t next(std::size_t k) const { return (k + 1) % points_.size(); }
   std::size_t previous(std::size_t k) const { return (k + points_.size() - 1) % points_.size(); }
   bool is_open_end(std::size_t k) const { return !closed_ && (k == 0 || k + 1 == points_.size()); }
+  /// The turn at point k by the length that it takes, 1 / length: the curvature of a curve through the points, roughly.
   double curvature(std::size_t k) const;
 
   const std::vector<Vec2>& points_;

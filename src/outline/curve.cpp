@@ -23,13 +23,17 @@
 // Follows docs/notation.md; the span's integral is Gauss and Legendre's rule of 12 points.
 namespace rollfix {
 
+/// kappa = c' x c'' / |c'|^3, in 1 / length; not finite where the speed is 0.
 double curvature(const Jet& jet) {
   const double speed_squared = jet.first.squaredNorm();
   return cross(jet.first, jet.second) / (speed_squared * std::sqrt(speed_squared));
 }
 
+/// d kappa / du, by the quotient rule: (c' x c''' - 3 (c' x c'') (c' . c'') / |c'|^2) / |c'|^3. The term c'' x c'' is
+/// 0.
 double curvature_rate(const Jet& jet) {
   const double speed_squared = jet.first.squaredNorm();
+  // c' x c'', its derivative c' x c''', and c' . c'', half the derivative of |c'|^2.
   const double turning = cross(jet.first, jet.second);
   const double turning_rate = cross(jet.first, jet.third);
   const double stretching = jet.first.dot(jet.second);
@@ -41,6 +45,8 @@ namespace {
 /// What the record of a reversed curve has before its kind.
 constexpr std::string_view kReversedPrefix = "reversed ";
 
+/// The curve seen backwards: c(lo + hi - u) over the same domain, so that derivatives of odd order change their sign
+/// and kappa does.
 struct Reversed {
   Curve original;
 
@@ -55,11 +61,13 @@ struct Reversed {
   double parameter_size(const Interval& range) const {
     return original.parameter_size({std::min(mirror(range.hi), range.lo), std::max(mirror(range.lo), range.hi)});
   }
+  // Twice reversed keeps two prefixes: the record makes the same curve again.
   std::optional<CurveRecord> record() const { return backwards(original.record()); }
   std::optional<CurveRecord> formula() const { return backwards(original.formula()); }
   /// Every formula runs over the same range as the curve.
   double formula_parameter(double u) const { return mirror(original.formula_parameter(mirror(u))); }
 
+  /// The record with the prefix; nothing stays nothing.
   static std::optional<CurveRecord> backwards(std::optional<CurveRecord> forwards) {
     if (forwards) forwards->kind.insert(0, kReversedPrefix);
     return forwards;
@@ -69,6 +77,8 @@ struct Reversed {
 /// What the record of a scaled curve has before its kind; the factor is its last number.
 constexpr std::string_view kScaledPrefix = "scaled ";
 
+/// All lengths times a factor above 0. The parameter stays, so all derivatives are multiplied by it; kappa is divided
+/// by it.
 struct Scaled {
   Curve original;
   double factor;
@@ -84,6 +94,7 @@ struct Scaled {
   std::optional<CurveRecord> formula() const { return times(original.formula()); }
   double formula_parameter(double u) const { return original.formula_parameter(u); }
 
+  /// The record with the prefix and the factor behind its numbers.
   std::optional<CurveRecord> times(std::optional<CurveRecord> record) const {
     if (!record) return record;
     record->kind.insert(0, kScaledPrefix);
@@ -105,20 +116,23 @@ class Numbers {
  public:
   explicit Numbers(const std::vector<double>& all) : all_(all) {}
 
+  /// Whether any are left. The counts are checked before: number() is not asked for more than there are.
   bool left() const { return next_ < all_.size(); }
   double number() { return all_[next_++]; }
   Vec2 point() { return Vec2{number(), number()}; }
 
  private:
-  const std::vector<double>& all_;
+  const std::vector<double>& all_;  // in the record's order
   std::size_t next_ = 0;
 };
 
+/// Control points as a record has them; weights empty: all equal.
 struct WrittenControls {
   std::vector<Vec2> points;
   std::vector<double> weights;
 };
 
+/// Reads x, y, and of a rational curve the weight, until no numbers are left.
 WrittenControls controls(Numbers& numbers, bool rational) {
   WrittenControls result;
   while (numbers.left()) {
@@ -128,7 +142,8 @@ WrittenControls controls(Numbers& numbers, bool rational) {
   return result;
 }
 
-// Braces take the numbers from left to right.
+// Each makes one kind of curve of its record's numbers. Braces take the numbers from left to right, which the arguments
+// of a call in parentheses need not.
 
 Curve line(Numbers& n) { return Line{n.point(), n.point()}; }
 Curve arc(Numbers& n) { return Arc{n.point(), n.number(), n.number(), n.number()}; }
@@ -150,13 +165,15 @@ Curve resting_bezier(Numbers& numbers) {
   return BezierFromRest(std::move(all.points), std::move(all.weights), End);
 }
 
+/// A kind of record, and what makes a curve of it.
 struct Kind {
-  std::string_view name;
-  std::size_t numbers;  // that it takes, or ...
-  bool or_a_multiple;   // ... a multiple of it
+  std::string_view name;  // in the record
+  std::size_t numbers;    // that it takes, or ...
+  bool or_a_multiple;     // ... a multiple of it
   Curve (*make)(Numbers&);
 };
 
+// The names are part of the format of saved parts: a name that changed would not be read any more.
 constexpr std::array<Kind, 11> kKinds = {{
     {"line", 4, false, line},
     {"arc", 5, false, arc},
@@ -173,11 +190,13 @@ constexpr std::array<Kind, 11> kKinds = {{
 
 }  // namespace
 
+/// Undoes one prefix and calls itself, or looks the kind up. The curves' own constructors check the numbers.
 Curve curve_from(const CurveRecord& record) {
   if (record.kind.rfind(kReversedPrefix, 0) == 0) {
     return reversed(curve_from({record.kind.substr(kReversedPrefix.size()), record.numbers}));
   }
   if (record.kind.rfind(kScaledPrefix, 0) == 0) {
+    // The prefix was put in front last, and its factor behind last: both are taken off first.
     if (record.numbers.empty() || !(record.numbers.back() > 0)) {
       throw InputError(fmt::format("a curve of kind '{}' ends with a factor above 0", record.kind));
     }
@@ -185,10 +204,12 @@ Curve curve_from(const CurveRecord& record) {
         curve_from({record.kind.substr(kScaledPrefix.size()), {record.numbers.begin(), record.numbers.end() - 1}}),
         record.numbers.back());
   }
+  // By the name in full: "bezier" is not taken for the start of "bezier-from-rest".
   const auto* const kind =
       std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& one) { return one.name == record.kind; });
   if (kind == kKinds.end()) throw InputError(fmt::format("the curve kind '{}' is not known", record.kind));
   const std::size_t count = record.numbers.size();
+  // Control points are as many as the record has numbers for.
   const bool fits = kind->or_a_multiple ? count % kind->numbers == 0 : count == kind->numbers;
   if (!fits) {
     throw InputError(fmt::format("a curve of kind '{}' takes {} numbers{}, found {}", record.kind, kind->numbers,
@@ -198,6 +219,7 @@ Curve curve_from(const CurveRecord& record) {
   return kind->make(numbers);
 }
 
+/// Refuses a line of no length, and one whose ends are not numbers.
 Line::Line(const Vec2& from, const Vec2& to) : from_(from), to_(to), chord_(to - from) {
   if (!(chord_.squaredNorm() > 0)) {
     throw InputError(fmt::format("a line from ({}, {}) to ({}, {}) has no length; leave it out", from.x(), from.y(),
@@ -221,6 +243,7 @@ Jet turned_jet(const Vec2& centre, const Vec2& start, const Vec2& side, double u
   return {centre + spoke, first, -spoke, -first};
 }
 
+/// Throws InputError: a sweep of 0, beyond a full turn, or not a number.
 void require_sweep(const char* what, double from, double sweep) {
   const double angle = std::abs(sweep);
   if (angle > 0 && angle <= kFullTurn && std::isfinite(from)) return;
@@ -230,6 +253,8 @@ void require_sweep(const char* what, double from, double sweep) {
 
 }  // namespace
 
+/// The parameter is the angle turned so far: the curve is start and side turned by u; side is a right angle ahead of
+/// start in the direction of travel.
 Arc::Arc(const Vec2& centre, double radius, double from, double sweep)
     : centre_(centre),
       start_(radius * Vec2(std::cos(from), std::sin(from))),
@@ -241,6 +266,7 @@ Arc::Arc(const Vec2& centre, double radius, double from, double sweep)
     throw InputError(fmt::format("an arc of radius {}: the radius must be above 0", radius));
   }
   require_sweep("an arc", from, sweep);
+  // Clockwise, side points to the other side.
   const double sign = sweep > 0 ? 1 : -1;
   side_ = sign * Vec2(-start_.y(), start_.x());
 }
@@ -249,8 +275,10 @@ Vec2 Arc::velocity(double u) const { return turned_velocity(start_, side_, u); }
 
 Jet Arc::jet(double u) const { return turned_jet(centre_, start_, side_, u); }
 
+/// cos(from + u) major + sin(from + u) minor = cos(u) start + sin(u) side; so start and side are conjugate half axes.
 EllipticArc::EllipticArc(const Vec2& centre, const Vec2& major, const Vec2& minor, double from, double sweep)
     : centre_(centre), angle_(std::abs(sweep)), major_(major), minor_(minor), from_(from), sweep_(sweep) {
+  // The half axes' cross product is 0 where they are parallel or one has no length.
   const double area = std::abs(cross(major, minor));
   if (!centre.allFinite() || !(area > 0) || !std::isfinite(area)) {
     throw InputError(fmt::format("an ellipse with the half axes ({}, {}) and ({}, {}): they must not be parallel",
@@ -280,10 +308,12 @@ constexpr double kSlack = 1e-9;
 
 }  // namespace
 
+/// The integral of |kappa| is at most that of |c1| + 2 |c2| s + 3 |c3| s^2.
 double span_turn(const TurningSpan::Cubic& turning, double length) {
   return length * (std::abs(turning[1]) + length * (std::abs(turning[2]) + length * std::abs(turning[3])));
 }
 
+/// `turning`: c0 ... c3 of Theta(s), radians by powers of length.
 TurningSpan::TurningSpan(const Vec2& start, const Cubic& turning, double length)
     : start_(start), turning_(turning), length_(length) {
   const bool is_finite =
@@ -300,16 +330,19 @@ TurningSpan::TurningSpan(const Vec2& start, const Cubic& turning, double length)
   }
 }
 
+/// Of unit length, as the parameter is the arc length.
 Vec2 TurningSpan::velocity(double s) const {
   const double theta = angle(s);
   return {std::cos(theta), std::sin(theta)};
 }
 
+/// The start plus the integral of the velocity over [0, s]; the rule's nodes come in pairs about the middle.
 Vec2 TurningSpan::position(double s) const {
   const double half = 0.5 * s;
   const auto& nodes = SpanQuadrature::abscissa();
   const auto& weights = SpanQuadrature::weights();
   Vec2 sum = Vec2::Zero();
+  // The table has the nodes above 0 only; each stands for itself and its mirror image.
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double reach = half * nodes[k];
     sum += weights[k] * (velocity(half + reach) + velocity(half - reach));
@@ -317,9 +350,11 @@ Vec2 TurningSpan::position(double s) const {
   return start_ + half * sum;
 }
 
+/// With T the tangent and n its left normal: c'' = kappa n and c''' = kappa' n - kappa^2 T.
 Jet TurningSpan::jet(double s) const {
   const Vec2 tangent = velocity(s);
   const Vec2 normal(-tangent.y(), tangent.x());
+  // kappa = Theta' and kappa' = Theta''.
   const double curvature = turning_[1] + s * (2 * turning_[2] + s * 3 * turning_[3]);
   const double rate = 2 * turning_[2] + s * 6 * turning_[3];
   return {position(s), tangent, curvature * normal, rate * normal - (curvature * curvature) * tangent};

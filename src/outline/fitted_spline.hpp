@@ -36,19 +36,25 @@ class FittedSpline {
  private:
   using Weights = std::array<double, 4>;
 
+  /// Knot number `index` of all as often as they count: closed, any number, on later laps a period on; open, clamped.
   double knot(long index) const;
+  /// The control point that B-spline number `index` belongs to: closed, cyclic.
   std::size_t coefficient(long index) const;
+  /// Fills `repeated_` and `last_knot_`, and makes room for the control points.
   void lay_knots();
   Weights basis(std::size_t span, double t) const;
   std::array<Weights, 2> second_derivatives(std::size_t span) const;
+  /// The control points of least squares.
   void solve(const std::vector<double>& parameters, const std::vector<Vec2>& points, double stiffness);
+  /// The spans of the control points.
   void make_spans();
+  /// The span's four control points by these weights.
   Vec2 sum(std::size_t span, const Weights& weights) const;
 
   Knots knots_;
   std::vector<double> repeated_;  // every knot as often as it counts; closed: of one period
   std::vector<long> last_knot_;   // of each span: the knot at its start that counts last
-  std::vector<Vec2> controls_;
+  std::vector<Vec2> controls_;    // of the B-splines; closed: one for each knot
   std::vector<CubicSpan> spans_;
 };
 

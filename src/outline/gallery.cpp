@@ -12,10 +12,19 @@
 #include "text/number.hpp"
 #include "text/text.hpp"
 
+// The table of named shapes, and the check of their parameters.
+// Notation:
+//   shape           a row of the table: name, formula, parameters, what makes its curves: Entry
+//   parameter       name, default, meaning and allowed values: GalleryParameter; a user's values: Parameters
+// Follows docs/gallery.md, which is made of this table; the curves themselves are in shapes/.
+// Idea: each shape is described once, and help, documentation and messages come from there. Values stay texts until a
+// shape asks for a number, so that an outline's name repeats what the user wrote.
 namespace rollfix {
 namespace {
 
+/// The parameter's place in the shape's list. Throws InputError with the names that there are, and the nearest.
 std::size_t index_of(const GalleryShape& shape, const std::string& name) {
+  // Collected for the message, should the name not be found.
   std::vector<std::string> names;
   for (std::size_t i = 0; i < shape.parameters.size(); ++i) {
     if (shape.parameters[i].name == name) return i;
@@ -25,12 +34,16 @@ std::size_t index_of(const GalleryShape& shape, const std::string& name) {
       fmt::format("gallery shape '{}' has no parameter '{}'; {}", shape.name, name, known_names(name, names)));
 }
 
+/// Whether the text is a value that this kind of parameter takes.
 bool is_allowed(const GalleryParameter& parameter, const std::string& text) {
   if (parameter.kind == ParameterKind::text) return !text.empty();
+  // The whole text must be a number: "2mm" is none.
   const std::optional<double> value = parse_number(text);
   if (!value || !std::isfinite(*value)) return false;
+  // Lengths have limits of their own, beyond which cubes of them overflow.
   if (parameter.kind == ParameterKind::length) return *value >= kLeastLength && *value <= kMostLength;
   if (parameter.kind == ParameterKind::whole && *value != std::floor(*value)) return false;
+  // Both limits are allowed.
   return *value >= parameter.least && *value <= parameter.most;
 }
 
@@ -44,12 +57,14 @@ std::string allowed_numbers(const GalleryParameter& parameter) {
 std::string expected_values(const GalleryParameter& parameter, const std::string& text) {
   const double size = std::abs(parse_number(text).value_or(0));
   const bool is_length = parameter.kind == ParameterKind::length;
+  // Only then are the limits of lengths worth a word.
   const bool is_beyond = size > kMostLength || (is_length && size > 0 && size < kLeastLength);
   return allowed_values(parameter) + (is_beyond ? fmt::format(" ({} to {})", kLeastLength, kMostLength) : "");
 }
 
 }  // namespace
 
+/// As it stands in the help and in docs/gallery.md.
 std::string allowed_values(const GalleryParameter& parameter) {
   switch (parameter.kind) {
     case ParameterKind::length:
@@ -58,15 +73,18 @@ std::string allowed_values(const GalleryParameter& parameter) {
       return allowed_numbers(parameter);
     case ParameterKind::whole:
       return fmt::format("a whole number from {} to {}", parameter.least, parameter.most);
+    // A text's meaning says what it may be.
     case ParameterKind::text:
       break;
   }
   return parameter.meaning;
 }
 
+/// Starts with the defaults and replaces what is given.
 Parameters::Parameters(const GalleryShape& shape, const ParameterList& given) : shape_(shape) {
   for (const GalleryParameter& parameter : shape.parameters) values_.push_back(parameter.default_value);
   std::vector<bool> is_given(values_.size(), false);
+  // Each must be a parameter of the shape, given once, with a value that it takes.
   for (const auto& [name, value] : given) {
     const std::size_t i = index_of(shape, name);
     const GalleryParameter& parameter = shape.parameters[i];
@@ -83,10 +101,13 @@ Parameters::Parameters(const GalleryShape& shape, const ParameterList& given) : 
   }
 }
 
+/// Checked in the constructor: the text is a number.
 double Parameters::number(const std::string& name) const { return *parse_number(text(name)); }
 
+/// As given, or the default; the name must be one of the shape's.
 const std::string& Parameters::text(const std::string& name) const { return values_[index_of(shape_, name)]; }
 
+/// The message lists all values, defaults too: the conflict may be with one that the user did not write.
 void Parameters::refuse(const std::string& reason) const {
   std::vector<std::string> settings;
   for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -97,13 +118,17 @@ void Parameters::refuse(const std::string& reason) const {
 
 namespace {
 
+/// Makes a shape's curves of its parameters.
 using Build = shapes::Curves (*)(const Parameters&);
 
+/// A row of the table.
 struct Entry {
   GalleryShape shape;
   Build build;
 };
 
+/// Rows of a shape's list of parameters, by kind: name, default, meaning, and of numbers the least and the most
+/// allowed.
 GalleryParameter length(const char* name, const char* value, const char* meaning) {
   return {name, value, meaning, ParameterKind::length, 0, 0};
 }
@@ -120,12 +145,15 @@ GalleryParameter text(const char* name, const char* value, const char* meaning) 
   return {name, value, meaning, ParameterKind::text, 0, 0};
 }
 
+// Names for the fields of a row: ends, then corners.
 constexpr bool kClosed = true;
 constexpr bool kOpen = false;
 constexpr bool kSmooth = true;
 constexpr bool kCorners = false;
 constexpr double kMostSeed = 9007199254740992;  // 2^53: every whole number up to it is a double
 
+/// Each row: name, formula, where s = 0 is, what is special, closed or open, smooth or with corners, parameters, and
+/// the function that makes its curves. First those by a formula around a centre.
 std::vector<Entry> round_shapes() {
   return {
       {{"circle",
@@ -183,6 +211,7 @@ std::vector<Entry> round_shapes() {
   };
 }
 
+/// Closed ones drawn of pieces or through points.
 std::vector<Entry> drawn_shapes() {
   return {
       {{"spline",
@@ -242,6 +271,7 @@ std::vector<Entry> drawn_shapes() {
   };
 }
 
+/// Curves with two ends.
 std::vector<Entry> open_shapes() {
   return {
       {{"log-spiral",
@@ -265,7 +295,9 @@ std::vector<Entry> open_shapes() {
   };
 }
 
+/// All rows, in the order of the help; made once.
 const std::vector<Entry>& entries() {
+  // A static of the function: there when another file's static asks for it.
   static const std::vector<Entry> table = [] {
     std::vector<Entry> all = round_shapes();
     for (const auto& more : {drawn_shapes(), open_shapes()}) all.insert(all.end(), more.begin(), more.end());
@@ -274,6 +306,7 @@ const std::vector<Entry>& entries() {
   return table;
 }
 
+/// Throws InputError: no shape of this name; the message has the names and the nearest.
 const Entry& find_entry(const std::string& name) {
   std::vector<std::string> names;
   for (const Entry& entry : entries()) {
@@ -285,6 +318,7 @@ const Entry& find_entry(const std::string& name) {
 
 }  // namespace
 
+/// The table without the functions, for help and documentation.
 const std::vector<GalleryShape>& gallery_shapes() {
   static const std::vector<GalleryShape> shapes = [] {
     std::vector<GalleryShape> result;
@@ -294,13 +328,17 @@ const std::vector<GalleryShape>& gallery_shapes() {
   return shapes;
 }
 
+/// The name is made of the parameters as given, defaults left out: it gives the same outline again.
 Outline gallery(const std::string& shape, const ParameterList& parameters) {
   const Entry& entry = find_entry(shape);
   Outline outline;
   outline.name = "gallery:" + shape;
+  // As the user wrote them, and in that order.
   for (const auto& [name, value] : parameters) outline.name += fmt::format(",{}={}", name, value);
+  // From this specification the same curves can be made again.
   outline.gallery = outline.name;
   outline.closed = entry.shape.closed;
+  // The parameters are checked first, each by itself; the shape refuses what does not go together.
   outline.curves = entry.build(Parameters(entry.shape, parameters));
   return outline;
 }
@@ -311,7 +349,9 @@ Outline gallery(const std::string& specification) {
   const std::vector<std::string_view> parts =
       split(std::string_view(specification).substr(has_prefix ? prefix.size() : 0), ',');
   ParameterList parameters;
+  // The first part is the shape's name, each further one "key=value".
   for (std::size_t i = 1; i < parts.size(); ++i) {
+    // A part without "=": most likely a decimal comma, which split the number.
     const std::size_t equals = parts[i].find('=');
     if (equals == std::string_view::npos) {
       throw InputError(

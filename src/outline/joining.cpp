@@ -33,7 +33,7 @@ namespace {
 using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
 
 constexpr double kQuadratureTolerance = 1e-12;  // relative
-constexpr unsigned kMostHalvings = 12;
+constexpr unsigned kMostHalvings = 12;          // of a curve's domain, at most
 constexpr int kPointsPerCurve = 16;
 
 // A place is rounded to some of its coordinates' last digits.
@@ -48,6 +48,7 @@ double integral(const F& f, const Interval& domain, double tolerance = kQuadratu
   return half * Quadrature::integrate(scaled, -1.0, 1.0, kMostHalvings, tolerance);
 }
 
+/// Known by its record: a curve of that kind is straight and has constant speed.
 bool is_line(const Curve& curve) {
   const auto record = curve.record();
   return record && record->kind == "line";
@@ -55,6 +56,7 @@ bool is_line(const Curve& curve) {
 
 }  // namespace
 
+/// docs/files.md, "Loops": what decides where a curve goes. The area is half the integral of (c - front) x c'.
 CurveMeasure measure(const Curve& curve) {
   const Interval domain = curve.domain();
   CurveMeasure result;
@@ -70,14 +72,16 @@ CurveMeasure measure(const Curve& curve) {
     result.box.extend(point);
     if (straight) break;
   }
+  // The ray from the front sweeps no area along it.
   if (straight) {
     result.length = (result.back - result.front).norm();
     return result;
   }
+  // The arc length: the integral of |c'|.
   result.length = integral([&](double u) { return curve.velocity(u).norm(); }, domain);
-  // The area of a nearly straight curve is next to nothing, and no quadrature gets it to a share of itself: with the
-  // length added, the tolerance is a share of length^2. A short curve far from (0, 0) has an area of few digits: asked
-  // for more, the quadrature would halve to the end.
+  // The area of a nearly straight curve is close to 0, and no quadrature gets it to a share of itself: with the length
+  // added, the tolerance is a share of length^2. A short curve far from (0, 0) has an area of few digits: asked for
+  // more, the quadrature would halve to the end.
   const double rounding = kPlaceRounding * result.box.max().cwiseMax(-result.box.min()).maxCoeff() / result.length;
   const double with_length = integral(
       [&](double u) {
@@ -91,7 +95,10 @@ CurveMeasure measure(const Curve& curve) {
 
 bool Polygon::contains(const Vec2& point) const {
   if (!box.contains(point)) return false;
+  // Each side that crosses the ray from the point to the right changes between inside and outside. A side holds its
+  // lower end only, so that a corner on the ray counts once or twice, as it should.
   bool inside = false;
+  // [first, last) of `points` are those of one square.
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec2& a = points[k];
     const Vec2& b = points[(k + 1) % points.size()];
@@ -122,17 +129,19 @@ class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
 
+  /// The least member of the set that holds it: join() keeps the lower root.
   std::size_t root(std::size_t one) {
     while (parent_[one] != one) one = parent_[one] = parent_[parent_[one]];
     return one;
   }
+  /// Makes one set of both.
   void join(std::size_t a, std::size_t b) {
     const std::size_t first = std::min(root(a), root(b));
     parent_[std::max(root(a), root(b))] = first;
   }
 
  private:
-  std::vector<std::size_t> parent_;
+  std::vector<std::size_t> parent_;  // a root is its own
 };
 
 /// A square of a grid, with points in it. Its diagonal is just below the gap: all of them are one cluster.
@@ -147,17 +156,20 @@ struct Square {
 std::vector<Square> squares_of(const std::vector<Vec2>& places, double side, std::vector<std::size_t>& points) {
   Vec2 corner = places.empty() ? Vec2(0, 0) : places.front();
   for (const Vec2& place : places) corner = corner.cwiseMin(place);
+  // Counted from the lower left corner of all points, so that no number is negative.
   const auto square_of = [&](std::size_t point) {
     const Vec2 at = (places[point] - corner) / side;
     return std::pair(static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()));
   };
   points.resize(places.size());
   std::iota(points.begin(), points.end(), std::size_t{0});
+  // By columns, in a column by rows, in a square by their numbers.
   std::sort(points.begin(), points.end(),
             [&](std::size_t a, std::size_t b) { return std::pair(square_of(a), a) < std::pair(square_of(b), b); });
   std::vector<Square> squares;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto [column, row] = square_of(points[k]);
+    // Points of one square follow one another.
     const bool is_new = squares.empty() || squares.back().column != column || squares.back().row != row;
     if (is_new) squares.push_back({column, row, k, k});
     squares.back().last = k + 1;
@@ -167,6 +179,8 @@ std::vector<Square> squares_of(const std::vector<Vec2>& places, double side, std
 
 }  // namespace
 
+/// Single linkage: the sets of points connected by steps of at most the gap. Sorting decides the time; a square is
+/// compared only with those at most two columns and two rows away.
 EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_(points.size(), kNone) {
   Sets sets(points.size());
   std::vector<std::size_t> sorted;
@@ -181,14 +195,18 @@ EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_
   };
   // Two squares to each side are near enough to hold a point within the gap. Of two the later one looks for the
   // earlier: in each column those are found by walking on.
+  // Of each of the three columns (its own and two to the left) the first square that may still be near: it only moves
+  // on, as the squares come in order.
   std::array<std::size_t, 3> next{};
   for (std::size_t k = 0; k < squares.size(); ++k) {
     const Square& own = squares[k];
+    // All of one square are one cluster: its diagonal is below the gap.
     for (std::size_t i = own.first + 1; i < own.last; ++i) sets.join(sorted[own.first], sorted[i]);
     for (std::size_t back = 0; back < next.size(); ++back) {
       const std::pair from(own.column - static_cast<std::int64_t>(back), own.row - 2);
       std::size_t& begin = next[back];
       while (std::pair(squares[begin].column, squares[begin].row) < from) ++begin;
+      // Squares that are already connected need no look at their points.
       for (std::size_t j = begin; j < k && squares[j].column == from.first && squares[j].row <= own.row + 2; ++j) {
         const std::size_t one = sorted[own.first];
         const std::size_t other = sorted[squares[j].first];
@@ -196,6 +214,7 @@ EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_
       }
     }
   }
+  // Clusters are numbered in the order of their first points.
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::size_t root = sets.root(k);  // never above k: it has its number by now
     if (root == k) {
@@ -216,12 +235,13 @@ namespace spatial = boost::geometry::index;
 using BoxCorner = geometry::model::point<double, 2, geometry::cs::cartesian>;
 using BoxedPolygon = std::pair<geometry::model::box<BoxCorner>, std::size_t>;
 
-/// So many that are hardly larger are asked first: of rings in rings one of them is the answer, and all boxes are
-/// around.
+/// So many polygons, those next in size, are asked first. Among rings in rings one of them is the answer, while the
+/// boxes of all would have to be looked at.
 constexpr std::size_t kNeighbours = 16;
 
 /// In the middle of the widest piece of the horizontal line halfway up.
 Vec2 point_inside(const Polygon& polygon) {
+  // The line crosses the boundary an even number of times, and from an odd crossing to the next it runs inside.
   const double y = 0.5 * (polygon.box.min().y() + polygon.box.max().y());
   std::vector<double> crossings;
   for (std::size_t k = 0; k < polygon.points.size(); ++k) {
@@ -242,6 +262,8 @@ Vec2 point_inside(const Polygon& polygon) {
 
 BoxCorner box_corner(const Vec2& point) { return {point.x(), point.y()}; }
 
+/// Finds for each polygon the next larger one around it. Polygons come by falling area, so those around k are before
+/// it.
 class Nesting {
  public:
   explicit Nesting(const std::vector<Polygon>& polygons) : polygons_(polygons), tree_(boxes_of(polygons)) {}
@@ -249,10 +271,13 @@ class Nesting {
   /// The smallest of those before k that is around it: around a point inside of it, as those on it may be on both.
   std::optional<std::size_t> around(std::size_t k) const {
     const Vec2 point = point_inside(polygons_[k]);
+    // First the few that are next in size, then by a tree of boxes all larger ones whose box holds the point, the
+    // smallest first.
     const std::size_t last = k > kNeighbours ? k - kNeighbours : 0;
     for (std::size_t j = k; j-- > last;) {
       if (polygons_[j].contains(point)) return j;
     }
+    // The larger numbers are the smaller polygons: the first that holds the point is the next one around.
     std::vector<std::size_t> boxed;
     for (auto found = tree_.qbegin(spatial::intersects(box_corner(point))); found != tree_.qend(); ++found) {
       if (found->second < last) boxed.push_back(found->second);
@@ -264,6 +289,7 @@ class Nesting {
   }
 
  private:
+  /// The tree's entries: each polygon's box with its number.
   static std::vector<BoxedPolygon> boxes_of(const std::vector<Polygon>& polygons) {
     std::vector<BoxedPolygon> all;
     for (const Polygon& one : polygons)
@@ -271,12 +297,13 @@ class Nesting {
     return all;
   }
 
-  const std::vector<Polygon>& polygons_;
+  const std::vector<Polygon>& polygons_;  // by falling area
   spatial::rtree<BoxedPolygon, spatial::quadratic<16>> tree_;
 };
 
 }  // namespace
 
+/// By induction: what is around k is before k, so its depth is known by then.
 std::vector<int> nesting_depths(const std::vector<Polygon>& polygons) {
   const Nesting nesting(polygons);
   std::vector<int> depths(polygons.size(), 0);

@@ -13,22 +13,26 @@ namespace rollfix::outline {
 struct CurveMeasure {
   Vec2 front;
   Vec2 back;
-  Vec2 middle;  // at the middle of its parameter
-  Box box;      // around points of it, its ends among them
-  double length = 0;
+  Vec2 middle;            // at the middle of its parameter
+  Box box;                // around points of it, its ends among them
+  double length = 0;      // relative error 1e-12 or so
   double twice_area = 0;  // swept by the ray from its front, counter-clockwise
 };
 
+/// Length and area by quadrature; of a line directly. The box holds 17 points, not all of the curve.
 CurveMeasure measure(const Curve& curve);
 
 /// Points of a closed outline, for asking what lies inside.
 struct Polygon {
-  std::vector<Vec2> points;
+  std::vector<Vec2> points;  // in order, the first not repeated
   Box box;
 
+  /// Whether a point lies inside, by the number of sides that a ray to the right crosses. Of points on the boundary it
+  /// may say either.
   bool contains(const Vec2& point) const;
 };
 
+/// 16 points for each curve, one for a line.
 Polygon polygon_of(const Outline& outline);
 
 /// Points sorted into clusters: two that are within `gap` of each other are in the same one, and so are those that are
@@ -38,6 +42,7 @@ class EndClusters {
   /// gap > 0. Linear in the number of points but for those that crowd together.
   EndClusters(const std::vector<Vec2>& points, double gap);
 
+  /// The number of the cluster that holds this point.
   std::size_t of(std::size_t point) const { return cluster_[point]; }
   /// The points of a cluster, in rising order.
   const std::vector<std::size_t>& members(std::size_t cluster) const { return members_[cluster]; }
@@ -49,7 +54,7 @@ class EndClusters {
 
 /// How a chain of curves leaves the node at one of its ends.
 struct Departure {
-  std::size_t node = 0;
+  std::size_t node = 0;  // that it leaves
   double heading = 0;    // of its tangent away from the node, radians
   double curvature = 0;  // positive where it turns left on leaving
 };
@@ -66,8 +71,8 @@ Edge edge_along(const std::vector<Curve>& curves, std::size_t front, std::size_t
 
 /// An edge as it is passed through.
 struct Passage {
-  std::size_t edge = 0;
-  bool forward = true;
+  std::size_t edge = 0;  // its number
+  bool forward = true;   // from its front to its back
 };
 
 /// A connected piece of a plane graph.

@@ -28,19 +28,25 @@ namespace {
 /// seven digits.
 constexpr double kSameHeading = 1e-6;
 
+/// How a curve leaves its front (`forward`), or its back against its direction. At rest it has no tangent there: the
+/// direction to its middle stands for it, with curvature 0.
 Departure departure(const Curve& curve, bool forward, std::size_t node) {
   const Interval domain = curve.domain();
   const Jet jet = curve.jet(forward ? domain.lo : domain.hi);
   Vec2 along = forward ? jet.first : Vec2(-jet.first);
+  // A velocity of 0 at the end itself has no direction.
   const bool at_rest = !(along.norm() > 0);
   if (at_rest) along = curve.position(domain.middle()) - jet.position;
   const double bend = at_rest ? 0 : curvature(jet);
   return {node, std::atan2(along.y(), along.x()), forward ? bend : -bend};
 }
 
+/// Builds the graph, drops loose edges, and walks around the outside of each connected piece. Linear in the number of
+/// edges but for nodes at which many meet.
 class OuterFace {
  public:
   OuterFace(const std::vector<Edge>& edges, std::size_t nodes) : edges_(edges), at_(nodes), loose_(edges.size()) {
+    // Each edge leaves two nodes, or one node twice.
     for (std::size_t k = 0; k < edges.size(); ++k) {
       at_[edges[k].front.node].push_back({k, true});
       at_[edges[k].back.node].push_back({k, false});
@@ -48,6 +54,7 @@ class OuterFace {
     leave_out_loose_ends();
   }
 
+  /// One face for each connected piece, by its lowest edge's number.
   std::vector<Face> run() {
     std::vector<Face> faces;
     std::vector<bool> seen(edges_.size(), false);
@@ -58,9 +65,11 @@ class OuterFace {
   }
 
  private:
+  /// How a passage leaves its first node.
   const Departure& leaving(const Passage& one) const {
     return one.forward ? edges_[one.edge].front : edges_[one.edge].back;
   }
+  /// The node that a passage comes to.
   std::size_t end_of(const Passage& one) const {
     return one.forward ? edges_[one.edge].back.node : edges_[one.edge].front.node;
   }
@@ -74,7 +83,8 @@ class OuterFace {
     return result;
   }
 
-  /// An edge alone at one of its ends is loose, and what it leaves alone is loose as well.
+  /// An edge alone at one of its ends is loose, and what it leaves alone is loose as well. What remains has at least
+  /// two ends at each node, so every piece of it encloses something.
   void leave_out_loose_ends() {
     std::vector<std::size_t> count(at_.size());
     std::vector<std::size_t> waiting;
@@ -82,6 +92,7 @@ class OuterFace {
       count[node] = at_[node].size();
       if (count[node] == 1) waiting.push_back(node);
     }
+    // Each node in `waiting` had one edge left when it came there.
     while (!waiting.empty()) {
       const std::size_t node = waiting.back();
       waiting.pop_back();
@@ -93,6 +104,7 @@ class OuterFace {
     }
   }
 
+  /// All edges connected with this one, loose ones included, by rising number; they are marked as seen.
   std::vector<std::size_t> piece_with(std::size_t edge, std::vector<bool>& seen) const {
     std::vector<std::size_t> piece = {edge};
     seen[edge] = true;
@@ -108,17 +120,22 @@ class OuterFace {
     return piece;
   }
 
+  /// The outer face of a connected piece: from an edge at the very left on, at each node the rightmost turn, until the
+  /// first passage comes again.
   Face face_of(std::vector<std::size_t> piece) const {
     Face face{std::move(piece), {}, false};
     const std::optional<Passage> first = leftmost(face.edges);
     face.encloses = first.has_value();
+    // All of it is loose: it encloses nothing.
     if (!first) return face;
     std::vector<Passage> around;
     Passage now = *first;
+    // As the next passage of each is unique, and so is the one before, the walk returns to its first.
     do {
       around.push_back(now);
       now = rightmost(end_of(now), {now.edge, !now.forward});
     } while (now.edge != first->edge || now.forward != first->forward);
+    // The drawing may cross without a node. Then the walk is not around the outside, and no loops are given.
     std::vector<std::vector<Passage>> loops = loops_of(around);
     if (surround(loops, around, face.edges)) face.loops = std::move(loops);
     return face;
@@ -130,14 +147,17 @@ class OuterFace {
     std::vector<Passage> open;
     std::map<std::size_t, std::size_t> reached;  // of each node on the way, how much of `open` led there
     reached[leaving(around.front()).node] = 0;
+    // `open` is a path that passes no node twice. A node that comes again closes a loop, which is taken out of it.
     for (const Passage& one : around) {
       open.push_back(one);
       const auto [known, is_new] = reached.try_emplace(end_of(one), open.size());
       if (is_new) continue;
       const auto begin = open.begin() + static_cast<std::ptrdiff_t>(known->second);
       std::vector<Passage> loop(begin, open.end());
+      // The nodes inside the loop are on the path no more; the one where it closed still is.
       for (auto passed = loop.begin(); passed + 1 != loop.end(); ++passed) reached.erase(end_of(*passed));
       open.erase(begin, open.end());
+      // There and back on one edge.
       const bool is_bridge = loop.size() == 2 && loop[0].edge == loop[1].edge;
       if (!is_bridge) loops.push_back(std::move(loop));
     }
@@ -151,6 +171,8 @@ class OuterFace {
     for (const std::size_t k : piece) {
       if (loose_[k]) continue;
       const std::vector<Vec2>& points = edges_[k].points;
+      // At the leftmost point of a counter-clockwise boundary the way leads downwards. If that point is a node, the
+      // lowest edge that leaves it is the one.
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (best && !(points[i].x() < least)) continue;
         least = points[i].x();
@@ -169,12 +191,14 @@ class OuterFace {
   /// On the way through a leftmost point: then it is counter-clockwise.
   static bool turns_left(const Vec2& before, const Vec2& point, const Vec2& after) {
     const double turn = cross(point - before, after - point);
+    // Straight there, the edge is vertical: forward is downwards.
     return turn != 0 ? turn > 0 : after.y() < before.y();
   }
 
   /// All edges of a leftmost node lead to the right: the rightmost turn of who comes from the left is the lowest.
   Passage lowest_at(std::size_t node) const { return next_after(std::numbers::pi, 0, kept(node), std::nullopt); }
 
+  /// The passage that follows at a node after coming in by `back`, as seen leaving: the next one counter-clockwise.
   Passage rightmost(std::size_t node, const Passage& back) const {
     return next_after(leaving(back).heading, leaving(back).curvature, kept(node), back);
   }
@@ -187,6 +211,8 @@ class OuterFace {
       double turn = 0;  // counter-clockwise, in [0, 2 pi]
       double bend = 0;  // how much more it turns left
     };
+    // An edge with the heading of the way back: if it bends more to the left it is the first one counter-clockwise,
+    // else the last.
     const auto way = [&](const Passage& one) {
       Way result{back && one.edge == back->edge && one.forward == back->forward, 0, leaving(one).curvature - curvature};
       result.turn = nearest_angle(leaving(one).heading - heading);
@@ -197,6 +223,7 @@ class OuterFace {
       }
       return result;
     };
+    // The least turn; among equal headings the one that bends less to the left; the way back last of all.
     return *std::min_element(here.begin(), here.end(), [&](const Passage& a, const Passage& b) {
       const Way one = way(a);
       const Way other = way(b);
@@ -205,6 +232,7 @@ class OuterFace {
     });
   }
 
+  /// The points along a loop, the end of each passage left out, as it is the start of the next.
   Polygon polygon_of(const std::vector<Passage>& loop) const {
     Polygon polygon;
     for (const Passage& one : loop) {
@@ -227,6 +255,7 @@ class OuterFace {
       return std::any_of(polygons.begin(), polygons.end(),
                          [&](const Polygon& polygon) { return polygon.contains(point); });
     };
+    // Edges that are around the outside are its boundary; loose ones may stick out.
     return std::all_of(piece.begin(), piece.end(), [&](std::size_t k) {
       const std::vector<Vec2>& points = edges_[k].points;
       if (is_around[k] || loose_[k]) return true;
@@ -236,9 +265,9 @@ class OuterFace {
     });
   }
 
-  const std::vector<Edge>& edges_;
+  const std::vector<Edge>& edges_;        // all that branch
   std::vector<std::vector<Passage>> at_;  // those that leave each node
-  std::vector<bool> loose_;
+  std::vector<bool> loose_;               // of each edge
 };
 
 }  // namespace

@@ -19,7 +19,7 @@
 //   u, h            a parameter, and the step of a stencil of nine jets about it: Stencil
 //   stated          a jet's derivative of an order, held against differences of the order below: `compare`
 //   gap, speed      between two curves where they meet; |c'|, whose least is looked for by Brent's method
-// Follows include/rollfix/outline.hpp; differences are of eighth order in h.
+// Follows include/rollfix/outline.hpp, `check`; differences are of eighth order in h.
 namespace rollfix {
 namespace {
 
@@ -32,8 +32,10 @@ constexpr double kGap = 1e-12;
 /// A speed below this share of the speed next to it vanishes: at a cusp the search below gets to about 1e-8.
 constexpr double kStandstill = 1e-6;
 
+/// A vector as messages show it.
 std::string coordinates(const Vec2& v) { return fmt::format("({:.10g}, {:.10g})", v.x(), v.y()); }
 
+/// Of order 0 (the position) to 3.
 const Vec2& derivative(const Jet& jet, int order) {
   switch (order) {
     case 0:
@@ -47,19 +49,21 @@ const Vec2& derivative(const Jet& jet, int order) {
   }
 }
 
+/// Whether all four vectors are finite.
 bool is_finite(const Jet& jet) {
   return jet.position.allFinite() && jet.first.allFinite() && jet.second.allFinite() && jet.third.allFinite();
 }
 
 /// Jets at u and at four equal steps to either side of it.
 struct Stencil {
-  double step;
+  double step;  // of the parameter
   std::array<Jet, 9> jets;
 
   Stencil(const Curve& curve, double u, double h) : step(h) {
     for (std::size_t j = 0; j < jets.size(); ++j) jets[j] = curve.jet(u + (static_cast<double>(j) - 4) * h);
   }
 
+  /// The largest size of that derivative in the stencil.
   double largest(int order) const {
     double result = 0;
     for (const Jet& jet : jets) result = std::max(result, derivative(jet, order).norm());
@@ -68,8 +72,10 @@ struct Stencil {
 
   /// The derivative of that order from differences of the order below it, of eighth order in the step.
   Vec2 difference(int order) const {
+    // The weights of the central difference over four steps to either side.
     constexpr std::array<double, 4> kWeights = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
     Vec2 sum = Vec2::Zero();
+    // Odd symmetry: each weight belongs to one place ahead and one behind.
     for (std::size_t k = 1; k <= 4; ++k) {
       sum += kWeights[k - 1] * (derivative(jets[4 + k], order - 1) - derivative(jets[4 - k], order - 1));
     }
@@ -78,24 +84,29 @@ struct Stencil {
 };
 
 /// Steps from a quarter of the way to the domain's nearer end down to a thousandth of that.
+/// A step that is too large has the formula's error, one too small has rounding: all of them are tried. None leaves the
+/// domain.
 std::vector<Stencil> stencils(const Curve& curve, double u) {
   constexpr int kHalvings = 10;
   const Interval domain = curve.domain();
+  // The first stencil just touches the nearer end of the domain.
   double step = 0.25 * std::min(u - domain.lo, domain.hi - u);
   std::vector<Stencil> result;
   for (int k = 0; k <= kHalvings; ++k, step /= 2) result.emplace_back(curve, u, step);
   return result;
 }
 
+/// A stated derivative beside its difference quotient, at one parameter.
 struct Disagreement {
-  double excess;  // in units of what is allowed
-  double u;
-  Vec2 stated;
-  Vec2 differenced;
+  double excess;     // in units of what is allowed
+  double u;          // parameter of the curve
+  Vec2 stated;       // by the curve's jet
+  Vec2 differenced;  // by differences
 };
 
 /// Compares with the difference quotient that changed least when its step was halved.
 Disagreement compare(const std::vector<Stencil>& family, double u, int order) {
+  // The quotient is converged where halving the step changes it least.
   const Stencil* best = nullptr;
   double least_change = std::numeric_limits<double>::infinity();
   for (std::size_t k = 1; k < family.size(); ++k) {
@@ -105,15 +116,19 @@ Disagreement compare(const std::vector<Stencil>& family, double u, int order) {
       best = &family[k];
     }
   }
+  // The middle jet of any stencil is the one at u.
   const Vec2 stated = derivative(family.front().jets[4], order);
+  // No two quotients could be compared: one is not finite.
   if (best == nullptr) return {std::numeric_limits<double>::infinity(), u, stated, stated};
   const Vec2 differenced = best->difference(order);
+  // Rounding of the values that are subtracted, by the step; `allowed` has both errors.
   const double rounding = kRounding * std::numeric_limits<double>::epsilon() * best->largest(order - 1) / best->step;
   const double allowed = kAgreement * best->largest(order) + rounding;
   const double error = (stated - differenced).norm();
   return {error > 0 ? error / allowed : 0, u, stated, differenced};
 }
 
+/// The middles of equal parts of the domain: no ends, so that a stencil has room on both sides.
 std::vector<double> sample_parameters(const Curve& curve, int samples) {
   const Interval domain = curve.domain();
   std::vector<double> result;
@@ -121,10 +136,12 @@ std::vector<double> sample_parameters(const Curve& curve, int samples) {
   return result;
 }
 
+/// What check() looks at; complaints in the order of the curves.
 class Checker {
  public:
   Checker(const Outline& outline, int samples) : outline_(outline), samples_(std::max(samples, 2)) {}
 
+  /// Curve by curve, then the joints; an empty list is a sound outline.
   std::vector<std::string> run() {
     if (outline_.curves.empty()) complain("the outline has no curves; give it at least one");
     bool all_usable = true;
@@ -137,6 +154,7 @@ class Checker {
       for (int order = 1; order <= 3; ++order) check_derivative(i, order);
       check_regularity(i);
     }
+    // Ends that are not finite can't be compared.
     if (all_usable) check_joins();
     return std::move(complaints_);
   }
@@ -153,6 +171,7 @@ class Checker {
                            domain.lo, domain.hi));
       return false;
     }
+    // The ends as well: position and derivatives must hold there, too.
     std::vector<double> parameters = sample_parameters(curve(i), samples_);
     parameters.push_back(domain.lo);
     parameters.push_back(domain.hi);
@@ -164,6 +183,7 @@ class Checker {
     return true;
   }
 
+  /// A curve type may state velocity(u) apart from jet(u): both must agree.
   void check_velocity(std::size_t i) {
     for (const double u : sample_parameters(curve(i), samples_)) {
       const Vec2 alone = curve(i).velocity(u);
@@ -177,6 +197,7 @@ class Checker {
 
   /// Reports the worst place only: where one is wrong, most are.
   void check_derivative(std::size_t i, int order) {
+    // Each sample costs eleven stencils of nine jets.
     std::optional<Disagreement> worst;
     for (const double u : sample_parameters(curve(i), samples_)) {
       const Disagreement found = compare(stencils(curve(i), u), u, order);
@@ -197,7 +218,9 @@ class Checker {
     parameters.insert(parameters.begin(), domain.lo);
     parameters.push_back(domain.hi);
     const auto squared_speed = [&](double u) { return curve(i).velocity(u).squaredNorm(); };
+    // Each sample that is no faster than both of its neighbours brackets a least speed.
     for (std::size_t k = 0; k < parameters.size(); ++k) {
+      // The samples beside it, or at an end of the domain the sample itself.
       const double lo = parameters[k == 0 ? 0 : k - 1];
       const double hi = parameters[std::min(k + 1, parameters.size() - 1)];
       const double here = squared_speed(parameters[k]);
@@ -205,10 +228,12 @@ class Checker {
       if (here > squared_speed(lo) || here > squared_speed(hi)) continue;
       constexpr int kBits = std::numeric_limits<double>::digits / 2;
       auto [u, least] = boost::math::tools::brent_find_minima(squared_speed, lo, hi, kBits);
+      // At an end of the domain the sample itself may be slower than all that Brent's method visits.
       if (here <= least) {
         u = parameters[k];
         least = here;
       }
+      // Held against the speed beside it, so that a curve that is slow all over is no cusp.
       if (least > kStandstill * kStandstill * beside) continue;
       complain(
           fmt::format("curve {} at u = {}, {}: the first derivative is {}, expected it not to vanish; draw the "
@@ -218,6 +243,7 @@ class Checker {
     }
   }
 
+  /// The diagonal of a box around samples: what gaps are held against.
   double size() const {
     Box box;
     for (const Curve& each : outline_.curves) {
@@ -226,6 +252,7 @@ class Checker {
     return box.diagonal().norm();
   }
 
+  /// Each curve must start where the one before ends; of a closed outline the first one, too.
   void check_joins() {
     const std::size_t count = outline_.curves.size();
     const double most = kGap * (count > 0 ? size() : 0);
@@ -250,6 +277,7 @@ class Checker {
 
 std::vector<std::string> check(const Outline& outline, int samples) { return Checker(outline, samples).run(); }
 
+/// Each curve backwards, in the opposite order. Everything else is copied.
 Outline reversed(const Outline& outline) {
   Outline result;
   result.name = outline.name;
@@ -268,6 +296,8 @@ Outline reversed(const Outline& outline) {
   return result;
 }
 
+/// Not the gallery's any more: its specification would give other lengths. With a factor of 1 only the unit's name
+/// changes.
 Outline scaled(const Outline& outline, double factor, const std::string& unit) {
   Outline result = outline;
   result.unit = unit;
@@ -292,6 +322,7 @@ std::string gallery_hint(const std::string& argument) {
 
 }  // namespace
 
+/// Words for an ending that nothing reads: what was found, what is read, and a likely cure.
 std::string unknown_ending(const std::string& path, const std::string& known) {
   const std::string ending = ending_of(path);
   if (ending == ".gz") return fmt::format("{}: is compressed, expected plain text: gunzip -k {}", path, path);
@@ -299,6 +330,7 @@ std::string unknown_ending(const std::string& path, const std::string& known) {
   return fmt::format("{}: {}, expected {}{}", path, found, known, gallery_hint(path));
 }
 
+/// By the argument's form alone: "gallery:...", then the file's ending.
 Outline load_outline(const std::string& argument, const OutlineOptions& options, std::vector<std::string>* notes) {
   if (argument.rfind("gallery:", 0) == 0) {
     Outline outline = gallery(argument);
@@ -308,10 +340,12 @@ Outline load_outline(const std::string& argument, const OutlineOptions& options,
   }
   const std::string ending = ending_of(argument);
   if (argument == "-" || ending == ".csv" || ending == ".dat" || ending == ".txt") {
+    // What the file says of its unit and its order goes on to the outline.
     OutlineOptions known = options;
     const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit, &known.airfoil);
     return outline_through(points, argument, known, notes);
   }
+  // Known endings that another library of the project reads: the message says which.
   if (ending == ".json" || ending == ".dxf" || ending == ".svg") {
     throw InputError(
         fmt::format("{}: {} files are read by the library rollfix::files, as load_part(\"{}\", {{}}).part of "

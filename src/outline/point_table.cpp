@@ -14,14 +14,27 @@
 #include "text/number.hpp"
 #include "text/text.hpp"
 
+// A table of points, read line by line.
+// Notation:
+//   data            a line up to a '#', with decimal points for commas: `data_`
+//   field, cell     what stands between blanks, commas or semicolons; of a row with a header: cells
+//   title           a line of words before the first point; the one that names columns is the header: Header
+//   x, y            the two columns to read: the first two, or those that the header calls so
+// Follows docs/files.md, "Points and scans".
+// Idea: without a header, or with one whose first columns are x and y, two numbers begin each line and the rest of it
+// is not looked at; with another header cells are counted. A line that is neither is refused, not passed over: a point
+// that is missing would change the part.
 namespace rollfix {
 
 namespace {
 
-/// What a line holds.
+/// What a line holds: nothing, a point, words, a single number, or two numbers between which another mark stands than
+/// behind them.
 enum class LineKind { blank, point, words, one_number, mixed_separators };
 
+/// Blanks within a line; a return before the line's end counts as one.
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+/// What may stand between two fields, besides blanks.
 bool is_mark(char c) { return c == ',' || c == ';'; }
 
 /// Between two fields: blanks with at most one comma or semicolon among them. Returns the mark, a blank when there
@@ -34,15 +47,18 @@ char skip_separator(const char*& cursor, const char* end) {
     mark = *cursor++;
     while (cursor != end && is_space(*cursor)) ++cursor;
   }
+  // A mark at the end of the line is returned: "1," has an empty second field.
   const bool line_ends = cursor == end && mark == ' ';
   return line_ends || cursor == start ? '\0' : mark;
 }
 
+/// Reads the first two fields of a line without a header, in one pass. `point` is set where the result is a point.
 LineKind read_line(std::string_view line, Vec2& point) {
   const char* cursor = line.data();
   const char* const end = line.data() + line.size();
   while (cursor != end && is_space(*cursor)) ++cursor;
   if (cursor == end) return LineKind::blank;
+  // Each step takes a field or a separator; where one is missing, what stands there tells the kind.
   if (!scan_number(cursor, end, point.x())) return LineKind::words;
   const char first_mark = skip_separator(cursor, end);
   if (first_mark == '\0') return cursor == end ? LineKind::one_number : LineKind::words;
@@ -54,6 +70,7 @@ LineKind read_line(std::string_view line, Vec2& point) {
   return is_mark(first_mark) && second_mark != first_mark ? LineKind::mixed_separators : LineKind::point;
 }
 
+/// Throws InputError with the file, the line's number and text, and what to write instead.
 [[noreturn]] void refuse_line(const std::string& name, std::size_t number, std::string_view line, LineKind kind) {
   const std::string where = fmt::format("{}:{}: '{}'", name, number, shown(line));
   switch (kind) {
@@ -68,6 +85,7 @@ LineKind read_line(std::string_view line, Vec2& point) {
   }
 }
 
+/// Throws InputError: a file that is no plain text, by its first bytes. Each kind has its own cure.
 void refuse_binary(std::string_view text, const std::string& name) {
   const std::string_view head = text.substr(0, 1024);
   if (is_gzip(text)) throw InputError(fmt::format("{}: is compressed, expected plain text: gunzip -k {}", name, name));
@@ -89,11 +107,13 @@ char separator_in(std::string_view row) {
   return ' ';
 }
 
+/// The inside of "..." as spreadsheets write it; another cell as it is.
 std::string_view without_quotes(std::string_view cell) {
   const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
   return is_quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
+/// The cells of a row, trimmed and without quotes. Between blanks none is empty; between marks some may be.
 std::vector<std::string_view> cells_of(std::string_view row, char separator) {
   std::vector<std::string_view> cells;
   for (const std::string_view cell : split(trimmed(row), separator)) {
@@ -109,6 +129,7 @@ struct Title {
 };
 
 /// "x_mm", "y mm" as x and mm, y and mm. Other names may end in anything.
+/// `name` in lower case. Only behind x and y is a unit of length taken off.
 Title title_with_unit(const std::string& name) {
   const bool is_coordinate =
       name.size() > 2 && (name[0] == 'x' || name[0] == 'y') && (name[1] == '_' || name[1] == ' ');
@@ -117,6 +138,7 @@ Title title_with_unit(const std::string& name) {
   return {name.substr(0, 1), std::string(unit->name)};
 }
 
+/// A cell of a header, with the unit in brackets or parentheses behind it.
 Title title_of(std::string_view cell) {
   const char open = cell.empty() ? '\0' : cell.back() == ']' ? '[' : cell.back() == ')' ? '(' : '\0';
   const std::size_t at = open == '\0' ? std::string_view::npos : cell.rfind(open);
@@ -127,11 +149,13 @@ Title title_of(std::string_view cell) {
 /// The line that says which column is which.
 struct Header {
   char separator = ',';
-  std::vector<Title> titles;
-  std::size_t x = 0;  // the columns to read
+  std::vector<Title> titles;  // of the columns, in order
+  std::size_t x = 0;          // the columns to read
   std::size_t y = 1;
 
+  /// x and y are the first two columns: lines are read as without a header.
   bool is_plain() const { return x == 0 && y == 1; }
+  /// The first column of this name.
   std::optional<std::size_t> find(std::string_view name) const {
     const auto at = std::find_if(titles.begin(), titles.end(), [&](const Title& one) { return one.name == name; });
     if (at == titles.end()) return std::nullopt;
@@ -151,6 +175,7 @@ constexpr std::array<std::array<std::string_view, 2>, 3> kLogPairs = {
 void refuse_log(const Header& header, bool is_header, std::string_view line, std::size_t number,
                 const std::string& name) {
   const auto has = [&](std::string_view title) { return header.has(title); };
+  // A log in place of a part is the likeliest mistake: it has two numbers in front of each line as well.
   const bool has_pair = std::any_of(kLogPairs.begin(), kLogPairs.end(), [&](const auto& pair) {
     return has(pair[0]) && has(pair[1]) && (is_header || pair[0] != "length");
   });
@@ -169,18 +194,22 @@ bool is_followed_by_points(const Header& header, std::string_view next) {
   return cells.size() == header.titles.size() && parse_number(cells[header.x]) && parse_number(cells[header.y]);
 }
 
+/// Reads a text from line to line: titles and the header in front, then points.
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& name, std::optional<bool> decimal_comma)
       : rest_(text), name_(name), decimal_comma_(decimal_comma) {}
 
+  /// All points. Throws InputError at the first line that is none.
   NumberedPoints run() {
     while (next_line()) {
       Vec2 point;
+      // A header that puts x and y elsewhere: cells are counted.
       if (header_ && !header_->is_plain()) {
         if (trimmed(data_).empty()) continue;
         point = point_in_table();
       } else {
+        // Words are titles only before the first point; afterwards they are an error.
         const LineKind kind = read_line(data_, point);
         if (kind == LineKind::blank) continue;
         if (kind == LineKind::words && may_be_title()) {
@@ -199,6 +228,7 @@ class TableReader {
  private:
   /// Without a header nobody says that x and y are the first two.
   void look_for_more_columns() {
+    // Asked at the first point only. Empty cells at the end of the line don't count.
     if (!result_.points.empty()) return;
     const char separator = separator_in(data_);
     std::vector<std::string_view> cells = cells_of(data_, separator);
@@ -209,6 +239,7 @@ class TableReader {
         cells.size(), separator == ',' ? "'id,x,y'" : "'id x y'"));
   }
 
+  /// Moves on by one line and fills `line_`, `data_` and `number_`; false at the end of the text.
   bool next_line() {
     if (rest_.empty()) return false;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -225,6 +256,7 @@ class TableReader {
 
   /// The next line that is not blank, as far as it is data.
   std::string line_ahead() const {
+    // Another reader of the rest, so that this one stays where it is. It takes the few lines up to the next with data.
     TableReader ahead(rest_, name_, decimal_comma_);
     while (ahead.next_line()) {
       if (!trimmed(ahead.data_).empty()) return std::string(ahead.data_);
@@ -243,6 +275,8 @@ class TableReader {
     return titles_ == 0 || !begins_like_a_point;
   }
 
+  /// A line of words before the points: the header, if it names columns, or a title that is passed over. Throws
+  /// InputError: the header of a log, or one with x or y alone.
   void take_title() {
     ++titles_;
     result_.has_title = true;
@@ -255,6 +289,8 @@ class TableReader {
       header.x = *x;
       header.y = *y;
     }
+    // Between marks several cells are a header; between blanks they may be the words of a title: then the next line
+    // decides.
     const bool is_header =
         header.titles.size() > 1 && (header.separator != ' ' || is_followed_by_points(header, line_ahead()));
     refuse_log(header, is_header, line_, number_, name_);
@@ -277,12 +313,14 @@ class TableReader {
                                  shown(line_), x ? "x" : "y", x ? "y" : "x"));
   }
 
+  /// A header without the names x and y: says which two columns are taken, as another two may be meant.
   void note_first_two(const Header& header) {
     if (header.titles.size() < 3 || !is_followed_by_points(header, line_ahead())) return;
     result_.notes.push_back(fmt::format("the header '{}' names no x and y: the first two columns, {} and {}, are taken",
                                         shown(line_), header.titles[0].name, header.titles[1].name));
   }
 
+  /// The unit that the header states for x and y. Throws InputError: not one of length, or not the same for both.
   void take_unit(const Header& header) {
     const std::string& stated = header.titles[header.x].unit;
     if (stated.empty() && header.titles[header.y].unit.empty()) return;
@@ -296,7 +334,10 @@ class TableReader {
     result_.unit = unit->name;
   }
 
+  /// The point in the header's columns. Throws InputError: no number there, or more cells than the header has, which a
+  /// decimal comma makes.
   Vec2 point_in_table() const {
+    // A line may be separated otherwise than its header, by blanks say.
     const bool is_alike = data_.find(header_->separator) != std::string_view::npos;
     const std::vector<std::string_view> cells = cells_of(data_, is_alike ? header_->separator : separator_in(data_));
     const auto number = [&](std::size_t k) {
@@ -315,6 +356,7 @@ class TableReader {
     return {number(header_->x), number(header_->y)};
   }
 
+  /// Appends a point. Throws InputError: not finite, beyond kMostCoordinate, or one more than kMostPieces.
   void add(const Vec2& point) {
     if (!(point.cwiseAbs().maxCoeff() <= kMostCoordinate) || point.hasNaN()) {
       throw InputError(fmt::format("{}:{}: the point ({}, {}) is out of range, expected finite numbers of at most {}",
@@ -325,20 +367,21 @@ class TableReader {
     result_.lines.push_back(number_);
   }
 
-  std::string_view rest_;
-  std::string_view line_;
+  std::string_view rest_;    // behind the line
+  std::string_view line_;    // as in the file
   std::string_view data_;    // without a comment
   std::string with_points_;  // the same with decimal points for commas
   const std::string& name_;
-  std::optional<bool> decimal_comma_;
-  std::size_t number_ = 0;
-  std::size_t titles_ = 0;
-  std::optional<Header> header_;
+  std::optional<bool> decimal_comma_;  // nothing: each line tells
+  std::size_t number_ = 0;             // of the line, from 1 on
+  std::size_t titles_ = 0;             // passed over
+  std::optional<Header> header_;       // nothing before it comes, or without one
   NumberedPoints result_;
 };
 
 }  // namespace
 
+/// A byte order mark is passed over.
 NumberedPoints read_point_table(std::string_view text, const std::string& name, std::optional<bool> decimal_comma) {
   refuse_binary(text, name);
   return TableReader(without_mark(text), name, decimal_comma).run();

@@ -12,9 +12,9 @@ namespace rollfix {
 
 /// Points with the lines of the file that they came from.
 struct NumberedPoints {
-  std::vector<Vec2> points;
-  std::vector<std::size_t> lines;
-  bool has_title = false;
+  std::vector<Vec2> points;          // in the file's order and unit
+  std::vector<std::size_t> lines;    // of each point, counted from 1
+  bool has_title = false;            // a line of words or a header stands in front
   std::string unit{};                // that a header states, as in "x [mm],y [mm]"; empty: none
   std::vector<std::string> notes{};  // what of the file's beginning was passed over
 };

@@ -43,11 +43,14 @@ std::vector<Vec2> solve(TridiagonalSystem system) {
   const std::vector<double>& off = system.off;
   const double wrap = system.wrap;
   std::vector<Vec2>& right = system.right;
+  // Forward: unknown i is taken out of row i + 1 and of the last row, into which the cyclic entry moves on.
   const std::size_t last = diagonal.size() - 1;
   // border[i]: what elimination leaves between unknown i and the last one.
+  // Without a cyclic entry all of it stays 0, but for the last.
   std::vector<double> border(last, 0.0);
   if (last > 0) {
     border[0] = wrap;
+    // Row i has three entries left: the diagonal, off[i] and border[i].
     for (std::size_t i = 0; i + 1 < last; ++i) {
       const double factor = off[i] / diagonal[i];
       diagonal[i + 1] -= factor * off[i];
@@ -57,11 +60,13 @@ std::vector<Vec2> solve(TridiagonalSystem system) {
       diagonal[last] -= last_factor * border[i];
       right[last] -= last_factor * right[i];
     }
+    // The last but one is next to the last in both ways.
     border[last - 1] += off[last - 1];
     const double factor = border[last - 1] / diagonal[last - 1];
     diagonal[last] -= factor * border[last - 1];
     right[last] -= factor * right[last - 1];
   }
+  // Backward: the last unknown, then each from the one behind it and from the last.
   std::vector<Vec2>& solution = right;
   solution[last] /= diagonal[last];
   for (std::size_t i = last; i-- > 0;) {
@@ -75,6 +80,7 @@ std::vector<Vec2> solve(TridiagonalSystem system) {
 /// Points that are off a straight line by this share of their largest coordinate are on it: rounding of the input.
 constexpr double kStraight = 4 * std::numeric_limits<double>::epsilon();
 
+/// Throws InputError: too few points, a corner angle outside [0, pi], or a point that is not finite.
 void require_usable(const std::vector<Vec2>& points, bool closed, double corner_angle) {
   const std::size_t needed = closed ? 3 : 2;
   if (points.size() < needed) {
@@ -96,6 +102,7 @@ void require_usable(const std::vector<Vec2>& points, bool closed, double corner_
 /// The polygon that a spline runs along. On a closed one, chord i goes from point i to point i + 1 modulo their number.
 class Chords {
  public:
+  /// Keeps a reference to the points. Throws InputError: two neighbours are the same.
   Chords(const std::vector<Vec2>& points, bool closed) : points_(points), closed_(closed) {
     lengths_.reserve(size());
     for (std::size_t i = 0; i < size(); ++i) {
@@ -108,13 +115,16 @@ class Chords {
     }
   }
 
+  /// The number of chords: of a closed polygon one ends at the first point.
   std::size_t size() const { return closed_ ? points_.size() : points_.size() - 1; }
   bool closed() const { return closed_; }
+  /// Chord i of a closed polygon, i counted on over the seam by less than a lap.
   std::size_t wrapped(std::size_t i) const { return i < size() ? i : i - size(); }
   const Vec2& from(std::size_t i) const { return points_[i]; }
   const Vec2& to(std::size_t i) const { return points_[end_index(i)]; }
   Vec2 chord(std::size_t i) const { return to(i) - from(i); }
   double length(std::size_t i) const { return lengths_[i]; }
+  /// d_i: the unit vector along the chord.
   Vec2 slope(std::size_t i) const { return chord(i) / lengths_[i]; }
 
   /// How far the polygon turns where chord `next` follows chord `previous`, in [0, pi].
@@ -126,6 +136,7 @@ class Chords {
   std::vector<std::size_t> breaks(double corner_angle) const {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < size(); ++i) {
+      // The chord before the first one of a closed polygon is the last one.
       const bool is_end = i == 0 && !closed_;
       if (is_end || turn(i == 0 ? size() - 1 : i - 1, i) >= corner_angle) result.push_back(i);
     }
@@ -133,6 +144,7 @@ class Chords {
   }
 
  private:
+  /// The point where chord i ends.
   std::size_t end_index(std::size_t i) const { return i + 1 < points_.size() ? i + 1 : 0; }
 
   const std::vector<Vec2>& points_;
@@ -142,17 +154,19 @@ class Chords {
 
 /// A run of neighbouring chords, across the seam if need be.
 struct Run {
-  std::size_t first;
-  std::size_t count;
+  std::size_t first;  // chord
+  std::size_t count;  // of chords
 };
 
-/// The equation of continuous slope at the knot between two chords.
+/// Appends the equation of continuous slope at the knot between two chords: the slopes of both cubics there, by p and
+/// M, are the same.
 void add_knot(TridiagonalSystem& system, const Chords& chords, std::size_t before, std::size_t after) {
   system.diagonal.push_back(2 * (chords.length(before) + chords.length(after)));
   system.off.push_back(chords.length(after));
   system.right.push_back(6 * (chords.slope(after) - chords.slope(before)));
 }
 
+/// An empty system with memory for so many unknowns.
 TridiagonalSystem room_for(std::size_t knots) {
   TridiagonalSystem system;
   system.diagonal.reserve(knots);
@@ -164,9 +178,11 @@ TridiagonalSystem room_for(std::size_t knots) {
 /// Second derivatives, by chord length, at the start of every chord of a periodic spline.
 std::vector<Vec2> periodic_moments(const Chords& chords) {
   TridiagonalSystem system = room_for(chords.size());
+  // One equation for each point, all of them joints between two chords.
   for (std::size_t i = 0; i < chords.size(); ++i) {
     add_knot(system, chords, i == 0 ? chords.size() - 1 : i - 1, i);
   }
+  // The last chord lies between the last unknown and the first.
   system.wrap = chords.length(chords.size() - 1);
   return solve(std::move(system));
 }
@@ -174,6 +190,7 @@ std::vector<Vec2> periodic_moments(const Chords& chords) {
 /// Second derivatives at the run's count + 1 points; zero at both ends.
 std::vector<Vec2> natural_moments(const Chords& chords, const Run& run) {
   std::vector<Vec2> moments;
+  // Unknown are the inner points only. A single chord has none: both moments are 0, a straight line.
   if (run.count > 1) {
     TridiagonalSystem system = room_for(run.count - 1);
     for (std::size_t k = 1; k < run.count; ++k) {
@@ -181,11 +198,13 @@ std::vector<Vec2> natural_moments(const Chords& chords, const Run& run) {
     }
     moments = solve(std::move(system));
   }
+  // "Natural": f'' = 0 at both ends of the run.
   moments.insert(moments.begin(), Vec2::Zero());
   moments.push_back(Vec2::Zero());
   return moments;
 }
 
+/// The cubic on chord i with these second derivatives by length at its ends.
 Curve span(const Chords& chords, std::size_t i, const Vec2& moment_from, const Vec2& moment_to) {
   // The span's own parameter runs over [0, 1], so derivatives by chord length scale with the chord.
   const double square = chords.length(i) * chords.length(i);
@@ -198,8 +217,11 @@ bool is_straight(const Chords& chords, const Run& run) {
   const Vec2& last = chords.to(chords.wrapped(run.first + run.count - 1));
   const Vec2 whole = last - first;
   if (whole == Vec2::Zero()) return false;  // all the way round, from the only corner back to it
+  // `limit` bounds |cross| where the distance from the line is rounding of the coordinates; inner points need not be in
+  // order.
   const double largest = std::max(first.cwiseAbs().maxCoeff(), last.cwiseAbs().maxCoeff());
   const double limit = kStraight * largest * whole.norm();
+  // All points between the two ends.
   for (std::size_t k = 0; k + 1 < run.count; ++k) {
     const Vec2& point = chords.to(chords.wrapped(run.first + k));
     if (std::abs(cross(whole, point - first)) > limit) return false;
@@ -224,6 +246,7 @@ void draw_run(const Chords& chords, const Run& run, const Place& place) {
   }
 }
 
+/// Without any corner: C2 all around, also at the first point.
 std::vector<Curve> periodic_spline(const Chords& chords) {
   const std::vector<Vec2> moments = periodic_moments(chords);
   std::vector<Curve> curves;
@@ -242,10 +265,13 @@ std::vector<Curve> spline_in_runs(const Chords& chords, const std::vector<std::s
   std::vector<Curve> curves;
   curves.reserve(chords.size());
   std::vector<Curve> before_first_break;
+  // Chords before the first break belong to the run that starts at the last break.
   const auto place = [&](std::size_t i, Curve curve) {
     (i < breaks.front() ? before_first_break : curves).push_back(std::move(curve));
   };
+  // Each run goes from one break to the next; the last one of a closed curve across the seam to the first break.
   for (std::size_t k = 0; k < breaks.size(); ++k) {
+    // Counted on over the seam, for the run that goes across it.
     const std::size_t end =
         k + 1 < breaks.size() ? breaks[k + 1] : chords.size() + (chords.closed() ? breaks.front() : 0);
     draw_run(chords, {breaks[k], end - breaks[k]}, place);
@@ -256,6 +282,7 @@ std::vector<Curve> spline_in_runs(const Chords& chords, const std::vector<std::s
 
 }  // namespace
 
+/// Corners are where neighbouring chords turn by the corner angle.
 std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, double corner_angle) {
   require_usable(points, closed, corner_angle);
   const Chords chords(points, closed);
@@ -269,6 +296,7 @@ std::vector<Curve> spline_with_corners(const std::vector<Vec2>& points, bool clo
   std::vector<std::size_t> breaks;
   if (!closed && (corners.empty() || corners.front() != 0)) breaks.push_back(0);
   for (const std::size_t corner : corners) {
+    // An open curve's last point starts no chord.
     if (corner < chords.size()) breaks.push_back(corner);
   }
   return spline_in_runs(chords, breaks);

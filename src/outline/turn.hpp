@@ -34,7 +34,7 @@ inline double angle_between(const Vec2& from, const Vec2& to) { return std::atan
 
 /// An angle with its cosine and sine.
 struct Turn {
-  double angle = 0;
+  double angle = 0;  // radians, in (-pi, pi]
   double cosine = 1;
   double sine = 0;
 };
@@ -76,11 +76,12 @@ class TurningSpan {
 
  private:
   double angle(double s) const { return turning_[0] + s * (turning_[1] + s * (turning_[2] + s * turning_[3])); }
+  /// The point at s, by quadrature.
   Vec2 position(double s) const;
 
-  Vec2 start_;
-  Cubic turning_;
-  double length_;
+  Vec2 start_;     // the point at s = 0
+  Cubic turning_;  // c0 ... c3
+  double length_;  // the domain's end
 };
 
 /// How far a span may turn, the turns to either side added up, radians: what its quadrature is exact for.

@@ -15,7 +15,8 @@ using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostTerms, 1>;
 template <int Degree>
 using Terms = Eigen::Array<double, Degree + 2, 1>;
 
-/// The points cos(pi j / Degree), from -1 to 1, and what turns values at them into a polynomial.
+/// The points -cos(pi j / Degree), j = 0 ... Degree, from -1 to 1, and the tables that turn values at them into a
+/// polynomial. All tables depend on the degree alone.
 template <int Degree>
 class Grid {
   static_assert(Degree % 2 == 0 && Degree + 2 <= kMostTerms);
@@ -25,9 +26,12 @@ class Grid {
   /// All points but the two at the ends, and one that counts for nothing, 0: an even number.
   using Inner = Eigen::Array<double, Degree, 1>;
 
+  /// Built at the first call, then shared by all threads.
   static const Grid& instance();
 
+  /// x_j, j = 0 ... Degree, in rising order.
   double point(int j) const { return points_[j]; }
+  /// x_1 ... x_(Degree - 1), and a 0 behind them.
   const Inner& inner() const { return inner_; }
   /// The polynomial through these values at the points (the last one is not looked at) by its coefficients over the
   /// Chebyshev polynomials.
@@ -54,15 +58,15 @@ class Grid {
 
   Eigen::Array<double, kPoints, 1> points_;
   Inner inner_;
-  Columns transform_;
-  Columns powers_;
+  Columns transform_;     // values at the points to coefficients over T_k
+  Columns powers_;        // coefficients over T_k to powers of x
   Columns halves_;        // what even powers do to even ones, odd to odd: the same on either half, ...
   Columns halves_mixed_;  // ... and even to odd, odd to even: the other way round on the first
 };
 extern template class Grid<8>;
 extern template class Grid<16>;
 
-/// The values of a polynomial, given by its powers, at all of these x.
+/// The values of a polynomial, given by its powers, at all of these x at once (Horner's scheme).
 template <class Powers, class Places>
 Places values(const Powers& powers, const Places& x) {
   Places sum = Places::Constant(powers[powers.size() - 1]);
@@ -79,6 +83,7 @@ Powers antiderivative(const Powers& powers, double factor) {
   Powers result;
   result[0] = 0;
   result.template tail<kRest>() = factor * powers.template head<kRest>() * reciprocals.template tail<kRest>();
+  // What the sum of the other terms is at x = -1: odd powers count with the other sign.
   double at_start = 0;
   for (Eigen::Index k = 0; k < kRest; k += 2) at_start += result[k] - result[k + 1];
   result[0] = -at_start;

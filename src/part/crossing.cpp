@@ -8,7 +8,7 @@
 #include "rollfix/pulse.hpp"
 
 // Notation:
-//   arc             a stretch on one spiral and one panel that turns by no more than `kCrossingLeafTurn`
+//   arc             one of equal lengths of a spiral on one panel; they turn by `kCrossingLeafTurn` at most on average
 //   turn            how far the tangent turns on it in all; of a node the corners between its arcs included
 //   bulge           how far an arc can be from its chord: by the isosceles triangle with the same turn
 //   box             around the chord, wider by the bulge
@@ -19,9 +19,10 @@
 namespace rollfix {
 namespace {
 
+// Proof: projected on the tangent in the middle of its range of directions, such a stretch always moves forwards.
 // A stretch whose tangent turns by less than half a turn in all, corners included, can't meet itself.
 constexpr double kSimpleTurn = std::numbers::pi * (1 - 1e-9);
-// Leaves turn by no more than this, so that a chord is close to its arc.
+// Leaves turn by no more than this on average, so that a chord is close to its arc.
 constexpr double kCrossingLeafTurn = 0.7;
 // Two arcs that are still not apart at this share of the perimeter do meet.
 constexpr double kMeeting = 1e-10;
@@ -29,21 +30,24 @@ constexpr double kMeeting = 1e-10;
 // comparisons, some seconds, it is given up: then they are closer than a millionth of their length or so.
 constexpr std::size_t kMostComparisons = 10'000'000;
 
-/// A stretch of boundary between arc lengths lo and hi.
+/// A stretch of one spiral and one panel between arc lengths lo and hi: Theta is monotone on it.
 struct Arc {
   double lo = 0;
   double hi = 0;
-  Vec2 start;
+  Vec2 start;  // points of its ends
   Vec2 end;
   double turn = 0;  // of the tangent in all, |corner at its start| not included
   double bulge = 0;
 
+  /// `turns`: |Theta(to) - Theta(from)|, radians.
   Arc(double from, double to, const Vec2& starts, const Vec2& ends, double turns)
       : lo(from), hi(to), start(starts), end(ends), turn(turns) {
-    // No further from its chord than the isosceles triangle with the same turn.
+    // No further from its chord than the isosceles triangle with the same turn: half the chord times the tangent of
+    // half the turn.
     bulge = 0.5 * (end - start).norm() * std::tan(0.5 * std::min(turn, 2.0)) * (1 + 1e-9);
   }
 
+  /// Holds every point of an arc that turns by 2 rad at most.
   Box box() const {
     const Vec2 margin = Vec2::Constant(bulge);
     return {Vec2(start.cwiseMin(end) - margin), Vec2(start.cwiseMax(end) + margin)};
@@ -55,6 +59,7 @@ struct Arc {
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Part& part) : part_(part) {
+    // Nodes of up to kFewArcs arcs or so are not stored: about count / kFewArcs nodes are.
     collect_arcs();
     std::size_t kept = 1;
     while (kept * kFewArcs < arcs()) kept *= 2;
@@ -62,6 +67,7 @@ class CrossingSearch {
     build(kRoot, 0, arcs());
   }
 
+  /// The first crossing found, which need not be the one with the least s.
   std::optional<Crossing> run() {
     within(kRoot, 0, arcs());
     return found_;
@@ -90,6 +96,8 @@ class CrossingSearch {
     return {from.s, to.s, from.point, to.point, from.turn};
   }
 
+  /// Cuts the boundary into arcs, in order: at the ends of spirals and panels, and where more than kCrossingLeafTurn
+  /// would be turned. A corner belongs to the arc that starts there.
   void collect_arcs() {
     const std::vector<Spiral>& spirals = part_.turning().spirals();
     const std::vector<Panel>& panels = part_.turning().panels();
@@ -98,6 +106,7 @@ class CrossingSearch {
     corners_.reserve(panels.size() + spirals.size());
     auto corner = part_.corners().begin();
     for (const Spiral& spiral : spirals) {
+      // The corner where this spiral starts; later arcs of the spiral have none.
       double jump = 0;
       if (corner != part_.corners().end() && corner->s <= spiral.lo) jump = std::abs((corner++)->turn);
       for (std::uint32_t panel = spiral.first_panel; panel <= spiral.last_panel; ++panel) {
@@ -109,6 +118,7 @@ class CrossingSearch {
     }
   }
 
+  /// Cuts [lo, hi], on one spiral and one panel, into arcs of equal length.
   void add_arcs(const Spiral& spiral, double lo, double hi, double jump) {
     beat();
     const TurningFunction& turning = part_.turning();
@@ -122,6 +132,7 @@ class CrossingSearch {
     }
   }
 
+  /// Fills the kept nodes, children before parents. Node k covers the arcs [first, last).
   void build(std::size_t node, std::size_t first, std::size_t last) {
     if (!is_kept(node)) return;
     const std::size_t middle = first + (last - first) / 2;
@@ -132,6 +143,8 @@ class CrossingSearch {
 
   bool is_kept(std::size_t node) const { return node < nodes_.size(); }
 
+  /// Its turn: those of both halves and the corner in between. The sum of all turns in size bounds the range of
+  /// directions.
   Node joined(std::size_t node, std::size_t first, std::size_t last) const {
     const std::size_t middle = first + (last - first) / 2;
     const Node left = node_at(2 * node, first, middle);
@@ -139,6 +152,7 @@ class CrossingSearch {
     return {left.box.merged(right.box), left.turn + corners_[middle] + right.turn};
   }
 
+  /// The node as stored, or made of its arcs.
   Node node_at(std::size_t node, std::size_t first, std::size_t last) const {
     if (is_kept(node)) return nodes_[node];
     return last - first == 1 ? Node{arc(first).box(), joints_[first].turn} : joined(node, first, last);
@@ -146,6 +160,7 @@ class CrossingSearch {
 
   /// Does the stretch of arcs [first, last) meet itself?
   void within(std::size_t node, std::size_t first, std::size_t last) {
+    // One arc counts as simple. So does any stretch that turns by less than half a turn in all.
     if (found_ || last - first == 1 || node_at(node, first, last).turn < kSimpleTurn) return;
     const std::size_t middle = first + (last - first) / 2;
     within(2 * node, first, middle);
@@ -159,12 +174,15 @@ class CrossingSearch {
     if (found_) return;
     const Node one = node_at(node1, first1, last1);
     const Node two = node_at(node2, first2, last2);
+    // Boxes apart: nothing in common.
     if (!one.box.intersects(two.box)) return;
     const double turns = one.turn + two.turn;
+    // They join and are simple together: then they share nothing but the joint. The same across s = 0.
     if (last1 == first2 && turns + corners_[first2] < kSimpleTurn) return;
     if (last2 == arcs() && first1 == 0 && part_.closed() && turns + corners_[0] < kSimpleTurn) return;
     const bool leaf1 = last1 - first1 == 1;
     const bool leaf2 = last2 - first2 == 1;
+    // The larger of the two is halved, so that both boxes shrink alike.
     if (leaf1 && leaf2) {
       meet(arc(first1), arc(first2), joint_turn(last1, first2, last2, first1));
     } else if (leaf2 || (!leaf1 && one.box.sizes().maxCoeff() >= two.box.sizes().maxCoeff())) {
@@ -196,9 +214,11 @@ class CrossingSearch {
     const double turn = one.turn + two.turn;
     if (joint.after_first >= 0 && turn + joint.after_first < kSimpleTurn) return;
     if (joint.after_second >= 0 && turn + joint.after_second < kSimpleTurn) return;
+    // Arcs that neither test excludes are halved, the longer one first, down to this length.
     const double shortest = kMeeting * part_.perimeter();
     const bool split_one = one.hi - one.lo >= two.hi - two.lo;
     const Arc& longer = split_one ? one : two;
+    // Not apart when both are that short: they count as meeting.
     const bool gives_up = ++comparisons_ > kMostComparisons;
     if (gives_up || longer.hi - longer.lo <= shortest) {
       found_ = Crossing{one.lo, two.lo, one.start, !gives_up};
@@ -207,6 +227,8 @@ class CrossingSearch {
     const double middle = 0.5 * (longer.lo + longer.hi);
     const Arc head = part_of(longer, longer.lo, middle);
     const Arc tail = part_of(longer, middle, longer.hi);
+    // A half is a neighbour of the other arc only on its own side: the head is no longer next to what follows the first
+    // arc, the tail no longer next to what comes before it.
     if (split_one) {
       meet(head, two, {-1, joint.after_second});
       meet(tail, two, {joint.after_first, -1});
@@ -216,11 +238,13 @@ class CrossingSearch {
     }
   }
 
+  /// A stretch of an arc; the ends that it shares with the whole keep their points.
   Arc part_of(const Arc& whole, double lo, double hi) const {
     return {lo, hi, lo == whole.lo ? whole.start : part_.point(lo), hi == whole.hi ? whole.end : part_.point(hi),
             turn(lo, hi)};
   }
 
+  /// |Theta(hi) - Theta(lo)| with the limits from inside, radians.
   double turn(double lo, double hi) const {
     return std::abs(part_.turning().angle(hi, Side::before) - part_.turning().angle(lo, Side::after));
   }

@@ -14,6 +14,7 @@ class Cursor {
   /// On the spiral that holds s: any s of a closed boundary, clamped on an open one; of two that meet there the one on
   /// this side.
   Cursor(const TurningFunction& turning, double s, Side side = Side::after) : turning_(&turning) {
+    // The spiral is found by its place on the first lap, and the laps are kept apart: sums of laps are exact.
     const Wrapped place = turning.boundary().reduced(s, side);
     index_ = turning.spiral_at(place.base, side);
     winding_ = place.winding;
@@ -23,6 +24,7 @@ class Cursor {
     Cursor cursor(turning, s);
     const Wrapped place = turning.boundary().reduced(s);
     const double rounding = kLengthAccuracy * turning.perimeter();
+    // How far it is from s to the spiral's end.
     const auto left = [&] {
       return cursor.spiral().hi + (cursor.winding_ - place.winding) * turning.perimeter() - place.base;
     };
@@ -32,12 +34,15 @@ class Cursor {
   /// On spiral k, counted on over the laps of a closed boundary, below 0 backwards.
   static Cursor at_spiral(const TurningFunction& turning, std::int64_t k) {
     const auto count = static_cast<std::int64_t>(turning.spirals().size());
+    // C++'s remainder has the sign of k: made to lie in [0, count).
     const std::int64_t index = (k % count + count) % count;
     const std::int64_t laps = (k - index) / count;  // without a rest
     return {turning, static_cast<std::size_t>(index), static_cast<double>(laps)};
   }
+  /// On spiral k of the first lap, k below their number.
   static Cursor at_spiral(const TurningFunction& turning, std::size_t k) { return {turning, k, 0.0}; }
 
+  /// Of the spiral, on the first lap.
   std::size_t index() const { return index_; }
   const Spiral& spiral() const { return turning_->spirals()[index_]; }
   double winding() const { return winding_; }  // whole laps gone, below 0 backwards
@@ -80,9 +85,9 @@ class Cursor {
                       : turning_->spirals().back().end.angle - turning_->period_turn();
   }
 
-  const TurningFunction* turning_;
-  std::size_t index_ = 0;
-  double winding_ = 0;
+  const TurningFunction* turning_;  // a pointer, so that cursors can be assigned
+  std::size_t index_ = 0;           // of the spiral
+  double winding_ = 0;              // whole laps
 };
 
 }  // namespace rollfix

@@ -14,13 +14,13 @@ namespace rollfix {
 
 /// All that a part holds, once it is computed.
 struct Part::Data {
-  Outline outline;
-  TurningFunction turning;
-  Parametrization parametrization;
-  std::vector<Corner> corners;
-  std::vector<double> inflections;
-  std::vector<double> vertices;
-  TurningTree tree;  // over the turning function; is not saved
+  Outline outline;                  // as stored: material on its left if closed
+  TurningFunction turning;          // Theta(s), with its spirals
+  Parametrization parametrization;  // from s back to the curves' parameters
+  std::vector<Corner> corners;      // by rising s
+  std::vector<double> inflections;  // s in [0, P), rising
+  std::vector<double> vertices;     // the same
+  TurningTree tree;                 // over the turning function; is not saved
 };
 
 /// Where the curvature changes sign. On a straight stretch between bends of opposite sign: its middle.
@@ -33,7 +33,7 @@ std::vector<double> find_vertices(const TurningFunction& turning, const std::vec
 struct Crossing {
   double first = 0;  // arc lengths
   double second = 0;
-  Vec2 point;
+  Vec2 point;              // of the crossing, or near it
   bool is_certain = true;  // false: stretches lie side by side, too close to tell them apart with a bounded effort
 };
 
@@ -54,7 +54,9 @@ struct PartAccess {
   static const Data& data(const Part& part) { return *part.data_; }
   /// Point and tangent at base, 0 <= base <= P: both from one panel, which may be this.
   static Touched contact(const Part& part, double base, std::size_t likely_panel);
+  /// The point at base, which lies on this panel; beyond the panel's curve by rounding: the curve's end.
   static Vec2 point(const Part& part, std::size_t panel_index, double base);
+  /// A part of data that were complete before, such as those of a saved one; the tree is made anew.
   static Part part(Data data) {
     data.tree = TurningTree(data.turning);
     return Part(std::make_shared<const Data>(std::move(data)));

@@ -31,6 +31,7 @@ constexpr double kArcRounding = 1e-9;
 constexpr double kDeepest = 1e-13;
 constexpr int kHitSamples = 24;
 
+/// The slack (a length): as the options say, or docs/reach.md, "The slack". Never above half the radius.
 double slack_of(const Part& part, const BoundaryTree& tree, double curvature, const ReachOptions& options) {
   const double most = curvature > 0 ? 0.5 / curvature : std::numeric_limits<double>::infinity();
   if (options.slack) return std::min(*options.slack, most);
@@ -39,16 +40,19 @@ double slack_of(const Part& part, const BoundaryTree& tree, double curvature, co
   return std::min(std::max(slack, 2 * part.outline().gap), most);
 }
 
-/// Turns decisions into arcs and pivots.
+/// Turns decisions, in the order of the boundary, into arcs and pivots. Neighbouring free stances are one arc while the
+/// finger can pass the joint between them.
 class Assembly {
  public:
   Assembly(const Part& part, Reach& reach) : part_(part), reach_(reach) {}
 
+  /// Fills the arcs, the pivots and `whole_loop` of the Reach.
   void run(const std::vector<Decision>& decisions) {
     const std::vector<Spiral>& spirals = part_.turning().spirals();
     std::size_t next = 0;
     bool first_joins = false;  // the first spiral goes on from the last
     for (std::size_t k = 0; k < spirals.size(); ++k) {
+      // For each spiral: the joint at its start, then its own stances.
       const bool joins = pass_joint(k, decisions, next);
       if (k == 0) {
         first_joins = joins;
@@ -66,6 +70,7 @@ class Assembly {
     const Cursor joint = Cursor::at_spiral(part_.turning(), k);
     if (joint.is_first()) return false;
     PivotReach pivot{joint.lo(), {joint.angle_before(), joint.angle_after()}, {}};
+    // Free pivots that adjoin are one range of angles.
     bool has_pivot = false;
     for (; next < decisions.size() && decisions[next].stance.spiral == k && decisions[next].stance.is_pivot; ++next) {
       has_pivot = true;
@@ -77,11 +82,13 @@ class Assembly {
         pivot.angles.push_back(range);
       }
     }
+    // A joint without pivots is passed unless it is a concave corner.
     if (!has_pivot) return !Corner{pivot.s, pivot.whole.width()}.is_concave();
     reach_.pivots.push_back(pivot);
     return pivot.is_whole();
   }
 
+  /// Lengthens the open arc by a free stance, or starts one; a stance that is not free ends it.
   void add(const Decision& decision) {
     const Interval& range = decision.stance.range;
     if (!decision.is_free) {
@@ -99,6 +106,7 @@ class Assembly {
     std::vector<Interval>& arcs = reach_.arcs;
     const double period = part_.perimeter();
     if (arcs.empty() || arcs.front().lo > 0 || arcs.back().hi < period) return;
+    // One arc from 0 to P that goes on across s = 0 has no ends.
     reach_.whole_loop = arcs.size() == 1;
     if (reach_.whole_loop) return;
     arcs.back().hi = period + arcs.front().hi;
@@ -110,6 +118,7 @@ class Assembly {
   bool is_open_ = false;  // the last arc goes on
 };
 
+/// The search and its results for a disk (curvature 1 / r) or a jaw (0).
 Reach reach_of(const Part& part, double curvature, const ReachOptions& options) {
   BoundaryTree tree(part);
   Reach reach;
@@ -124,7 +133,8 @@ Reach reach_of(const Part& part, double curvature, const ReachOptions& options) 
   return reach;
 }
 
-/// The most promising stretch first.
+/// The deepest point in one stance of the finger, best first: the stretch with the highest bound on F is halved next,
+/// until no bound is above the best point found by more than kDeepest of the size. With nothing inside, depth 0.
 Hit deepest_hit(BoundaryTree& tree, double curvature, double s, double angle) {
   const Vec2 point = tree.part().point(s);
   const Vec2 normal(std::sin(angle), -std::cos(angle));
@@ -132,10 +142,12 @@ Hit deepest_hit(BoundaryTree& tree, double curvature, double s, double angle) {
   double best = 0;
   std::priority_queue<std::pair<double, std::int32_t>> open;
   open.push({std::numeric_limits<double>::infinity(), tree.root()});
+  // The queue's top bounds F on all that is left.
   while (!open.empty() && open.top().first > best + kDeepest * tree.diagonal()) {
     beat();
     const std::int32_t whole = open.top().second;
     open.pop();
+    // Too short to halve: its own point has been looked at.
     const auto [first, second] = tree.halves(whole);
     if (first == second) continue;
     for (const std::int32_t index : {first, second}) {
@@ -159,6 +171,7 @@ Hit deepest_hit(BoundaryTree& tree, double curvature, double s, double angle) {
 
 namespace rollfix {
 
+/// Every angle between both limits of the corner.
 bool PivotReach::is_whole() const {
   return angles.size() == 1 && angles.front().lo <= whole.lo && angles.front().hi >= whole.hi;
 }
@@ -168,6 +181,7 @@ bool Reach::is_whole() const {
   return all && std::all_of(pivots.begin(), pivots.end(), [](const PivotReach& pivot) { return pivot.is_whole(); });
 }
 
+/// What lies between one arc and the next; of a closed boundary also across s = 0.
 std::vector<Interval> Reach::gaps() const {
   if (arcs.empty()) return {{0, perimeter}};
   std::vector<Interval> found;
@@ -181,6 +195,7 @@ std::vector<Interval> Reach::gaps() const {
     add(last, perimeter);
   } else if (!whole_loop) {
     const double next = arcs.front().lo + perimeter;
+    // The gap across s = 0. Where the last arc goes past P, the gap before the first arc lies on the first lap.
     if (last < perimeter) {
       add(last, next);
     } else if (next > last) {
@@ -190,6 +205,7 @@ std::vector<Interval> Reach::gaps() const {
   return found;
 }
 
+/// 0 to 1; pivots have no length.
 double Reach::share() const {
   double length = 0;
   for (const Interval& arc : arcs) length += arc.width();
@@ -199,6 +215,7 @@ double Reach::share() const {
 std::optional<Interval> Reach::arc_at(double s) const {
   const double rounding = part::kArcRounding * perimeter;
   for (const Interval& arc : arcs) {
+    // The laps by which the arc is moved so that it starts at or before s.
     const double turns = closed ? std::floor((s + rounding - arc.lo) / perimeter) : 0;
     const Interval moved{arc.lo + turns * perimeter - rounding, arc.hi + turns * perimeter + rounding};
     if (moved.contains(s)) return moved;
@@ -226,6 +243,7 @@ Reach reach_of_disk(const Part& part, double radius, const ReachOptions& options
 
 Reach reach_of_jaw(const Part& part, const ReachOptions& options) { return part::reach_of(part, 0, options); }
 
+/// Builds a tree for this one question.
 Hit deepest_hit(const Part& part, double curvature, double s, double angle) {
   part::BoundaryTree tree(part);
   return part::deepest_hit(tree, curvature, s, angle);
@@ -236,6 +254,7 @@ Hit deepest_hit(const Part& part, double curvature, const Interval& contacts) {
   const TurningFunction& turning = part.turning();
   Hit deepest = part::deepest_hit(tree, curvature, contacts.lo, turning.angle(contacts.lo));
   const Interval pivot{turning.angle(contacts.lo, Side::before), turning.angle(contacts.lo)};
+  // Sampled, for a message: contacts of a stretch, or tangents between both limits at a corner.
   for (int k = 0; k <= part::kHitSamples; ++k) {
     const double share = static_cast<double>(k) / part::kHitSamples;
     const double s = contacts.lo + share * contacts.width();

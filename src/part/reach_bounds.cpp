@@ -22,7 +22,8 @@
 namespace rollfix::part {
 namespace {
 
-// A stretch turns by no more than this, radians, so that it is close to its chord.
+// A spiral is cut into so many equal lengths that they turn by no more than this on average, radians: then they are
+// close to their chords.
 constexpr double kLeafTurn = 0.4;
 // Positions are rounded: this share of the perimeter.
 constexpr double kPlaceRounding = 2e-15;
@@ -39,6 +40,7 @@ BoundaryTree::BoundaryTree(const Part& part) : part_(part) {
   std::vector<Vec2> ends;
   for (std::size_t k = 0; k < spirals.size(); ++k) {
     const Spiral& spiral = spirals[k];
+    // As many pieces of equal length as kLeafTurn asks for.
     const int count = 1 + static_cast<int>(std::abs(spiral.turn()) / kLeafTurn);
     Vec2 from = part.point(spiral.lo);
     Turning at_from = spiral.start;
@@ -55,6 +57,7 @@ BoundaryTree::BoundaryTree(const Part& part) : part_(part) {
     ends.push_back(from);
   }
   if (part.closed()) gaps_.front() = (part.point(0) - ends.back()).norm();
+  // Only the tree over them is built here; single stretches are halved when somebody asks.
   Vec2 least, most;
   root_ = join(0, leaves_.size(), least, most);
   diagonal_ = (most - least).norm();
@@ -69,6 +72,8 @@ std::int32_t BoundaryTree::add_single(std::int32_t spiral, double lo, double hi,
   node.start = start;
   node.end = end;
   const double turn = std::abs(at_hi.angle - at_lo.angle);
+  // Half the chord times the tangent of half the turn, which is a bound for turns below pi, and what positions are
+  // rounded by.
   node.deviation = 0.5 * (end - start).norm() * std::tan(0.5 * turn) * (1 + 1e-9) + kPlaceRounding * part_.perimeter();
   node.at_lo = at_lo;
   node.at_hi = at_hi;
@@ -79,6 +84,8 @@ std::int32_t BoundaryTree::add_single(std::int32_t spiral, double lo, double hi,
   return static_cast<std::int32_t>(nodes_.size()) - 1;
 }
 
+/// A node over many stretches is a point, the middle of their box, with half the diagonal as its deviation. Its point
+/// of the boundary is one between both halves.
 std::int32_t BoundaryTree::join(std::size_t from, std::size_t to, Vec2& least, Vec2& most) {
   if (to - from == 1) {
     const Node& leaf = node(leaves_[from]);
@@ -105,6 +112,7 @@ std::int32_t BoundaryTree::join(std::size_t from, std::size_t to, Vec2& least, V
 }
 
 std::pair<std::int32_t, std::int32_t> BoundaryTree::halves(std::int32_t index) {
+  // A copy: adding nodes moves them.
   const Node whole = node(index);
   if (whole.left >= 0) return {whole.left, whole.right};
   const double middle = 0.5 * (whole.lo + whole.hi);
@@ -148,12 +156,14 @@ class SafeWalk {
                            : Interval{angles.hi - kMostInward, angles.lo + kMostOutward}),
         at_(Cursor::at_spiral(turning_, stance.spiral + (forwards_ ? stance.spirals - 1 : 0))) {}
 
-  /// Where it ends.
+  /// Where it ends: the arc length up to which the stretch is safe, unwrapped. If the stance itself is not safe, the
+  /// walk ends at the stance's other end, so that the walks in both directions leave an empty stretch.
   double end() {
     if (!leave_stance()) return here_;
     const bool is_on_several = stance_.spirals > 1;
     const double enough = (is_on_several ? kMostSafeLengthOfSeveral : kMostSafeLength) * length_;
     bool at_joint = stance_.is_pivot && !forwards_;  // a pivot looks back at the spiral before
+    // Each turn passes the rest of a spiral and the joint behind it.
     for (int seen = 0; (seen <= kMostSafeSpirals && !is_on_several) || length_ <= enough; ++seen) {
       if (!at_joint && !pass_spiral()) break;
       at_joint = false;
@@ -163,14 +173,17 @@ class SafeWalk {
   }
 
  private:
+  /// From the stance to its end in the walk's direction; false where not even the stance is safe.
   bool leave_stance() {
     const Spiral& spiral = at_.spiral();
+    // A pivot stands on the joint itself and has no length. Backwards the walk starts with the spiral before.
     if (stance_.is_pivot) {
       here_ = spiral.lo;
       return !forwards_ || allowed_.contains(spiral.start.angle);
     }
     length_ = stance_.range.width();
     if (stance_.spirals > 1) return leave_several();
+    // kappa is monotone: its least value is at an end.
     for (const double end : {stance_.range.lo, stance_.range.hi}) excess_ = std::max(excess_, excess_at(end));
     const bool is_safe = fits(length_, excess_);
     here_ = is_safe == forwards_ ? stance_.range.hi : stance_.range.lo;
@@ -188,10 +201,13 @@ class SafeWalk {
     return is_safe;
   }
 
+  /// On to the spiral's end; false where the tangent or the slack ends the walk before that, which bisection finds.
   bool pass_spiral() {
     const Spiral& spiral = at_.spiral();
     const double end = forwards_ ? spiral.hi : spiral.lo;
     const auto excess_up_to = [&](double s) { return std::max({excess_, excess_at(s), excess_at(here_)}); };
+    // True up to some s and false behind it, so bisection finds where it ends: the angle is monotone, and the length
+    // and the excess grow with s.
     const auto reaches = [&](double s) {
       return allowed_.contains(turning_.on_spiral(spiral, s).angle + at_.lift()) &&
              fits(length_ + std::abs(s - here_), excess_up_to(s));
@@ -212,6 +228,8 @@ class SafeWalk {
     return true;
   }
 
+  /// Over the joint behind the spiral; false at an end of an open boundary, after a whole lap, or where the jump or the
+  /// gap ends the walk. A concave joint adds to what the boundary comes below the rim by.
   bool pass_joint() {
     if ((forwards_ ? at_.is_last() : at_.is_first()) || length_ > turning_.perimeter()) return false;
     Cursor next = at_;
@@ -230,8 +248,11 @@ class SafeWalk {
     return true;
   }
 
+  /// By how much kappa falls short of -k at s; below 0 where the rim bends away.
   double excess_at(double s) const { return -turning_.on_spiral(at_.spiral(), s).curvature - curvature_; }
 
+  /// Whether a boundary that goes on for this length stays less than the slack below the rim: the bound at the head of
+  /// this file, plus the gaps.
   bool fits(double length, double excess) const {
     const double below = 0.5 * excess * length * length + std::max(0.0, jumps_ * length - jump_places_);
     return kLeaning * below + gaps_ <= slack_;
@@ -255,6 +276,7 @@ class SafeWalk {
 
 }  // namespace
 
+/// `angles`: the tangent's range over the stance; on each spiral it is monotone, so that its ends have it.
 Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, const Stance& stance) {
   const TurningFunction& turning = tree.part().turning();
   const Spiral& spiral = turning.spirals()[stance.spiral];

@@ -32,6 +32,7 @@ constexpr double kStanceTurn = 0.4;
 constexpr double kShortestStance = 1e-12;
 // One on several spirals turns by no more than this: its ends see each other as a safe stretch has it.
 constexpr double kMostTurnOfSeveral = 2 * kStanceTurn;
+/// The unit vector at this angle.
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
@@ -40,16 +41,19 @@ double deepness(const Vec2& normal, const Vec2& offset, double curvature) {
   return 2 * normal.dot(offset) - curvature * offset.squaredNorm();
 }
 
+// h = (1 - sqrt(1 - k F)) / k, written without the division by k, which is 0 for a jaw, and without cancellation.
 double depth_of(double deepness, double curvature) {
   return deepness / (1 + std::sqrt(std::max(0.0, 1 - curvature * deepness)));
 }
 
+// The quadratic's top lies at x = slope / (2 bend); if that is not inside (0, 1), an end has the largest value.
 double ChordDeepness::most() const {
   if (!(slope > 0 && slope < 2 * bend)) return most_at_ends();
   return std::max(most_at_ends(), at_start + 0.25 * slope * slope / bend);
 }
 
-/// The gradient of F by q has the size 2 k |q - centre| = 2 sqrt(1 - k F).
+/// The gradient of F by q has the size 2 k |q - centre| = 2 sqrt(1 - k F), 2 for a jaw: times the distance from the
+/// chord.
 double ChordDeepness::beside(double deviation, double curvature) const {
   return 2 * std::sqrt(std::max(0.0, 1 - curvature * most())) * deviation;
 }
@@ -58,15 +62,16 @@ ChordDeepness deepness_on_chord(const BoundaryTree::Node& node, const Vec2& poin
                                 double curvature) {
   const Vec2 to_start = node.start - point;
   const Vec2 chord = node.end - node.start;
+  // F at d = (start - p) + x (end - start), by powers of x.
   return {deepness(normal, to_start, curvature), 2 * (normal.dot(chord) - curvature * to_start.dot(chord)),
           curvature * chord.squaredNorm()};
 }
 
 /// A stance from its middle, and how far it goes from there.
 struct ReachSearch::View {
-  Vec2 point;
-  Vec2 tangent;
-  Vec2 normal;
+  Vec2 point;           // p, at the middle
+  Vec2 tangent;         // T there
+  Vec2 normal;          // n there, outward: T turned clockwise
   double turn = 0;      // of the tangent, to the further end
   double rotation = 0;  // of the finger against the part
   double length = 0;    // of the contact's way
@@ -89,9 +94,11 @@ ReachSearch::ReachSearch(BoundaryTree& tree, double curvature, double slack, std
       slack_(slack),
       budget_(budget),
       last_hit_(part_.point(0)),
+      // F of a point whose depth is the slack.
       most_(slack * (2 - curvature * slack)),
       doubt_(std::max(kDoubt * most_, kRounding * tree.diagonal())) {}
 
+// The root holds the whole boundary.
 const std::vector<Decision>& ReachSearch::run() {
   add_spirals(0, turning_.spirals().size(), {tree_.root()});
   return decisions_;
@@ -99,15 +106,19 @@ const std::vector<Decision>& ReachSearch::run() {
 
 /// Most of a scan's many spirals are free with all their neighbours: what can't be in any of them is looked at once.
 void ReachSearch::add_spirals(std::size_t first, std::size_t end, const std::vector<std::int32_t>& candidates) {
+  // A single spiral: first the pivots at its start, then the rolls, which is the order of the boundary. An open
+  // boundary has no joint at s = 0.
   if (end - first == 1) {
     if (part_.closed() || first > 0) add_pivots(first, candidates);
     add_rolls(first, candidates);
     return;
   }
+  // What the whole run excludes, none of its spirals needs to look at again.
   std::vector<std::int32_t> left = candidates;
   if (is_one_stance(first, end)) {
     const std::vector<Spiral>& spirals = turning_.spirals();
     left = left_of({false, first, {spirals[first].lo, spirals[end - 1].hi}, end - first}, candidates);
+    // Nothing can be in the finger on any of them: all are free.
     if (left.empty()) {
       for (std::size_t k = first; k < end; ++k) add({false, k, {spirals[k].lo, spirals[k].hi}}, true);
       return;
@@ -122,9 +133,11 @@ void ReachSearch::add_spirals(std::size_t first, std::size_t end, const std::vec
 bool ReachSearch::is_one_stance(std::size_t first, std::size_t end) const {
   const std::vector<Spiral>& spirals = turning_.spirals();
   Interval angles{spirals[first].start.angle, spirals[first].start.angle};
+  // A quick test first, in constant time.
   if (std::abs(spirals[end - 1].end.angle - angles.lo) > kMostTurnOfSeveral) return false;
   for (std::size_t k = first; k < end; ++k) {
     const Spiral& spiral = spirals[k];
+    // 1 + r kappa > 0 at both ends, and so on the whole spiral: the finger rolls forwards. Corners would be pivots.
     if (std::min(spiral.start.curvature, spiral.end.curvature) + curvature_ <= 0) return false;
     if (std::abs(Cursor::at_spiral(turning_, k).jump()) > kTurnAccuracy) return false;
     for (const double angle : {spiral.start.angle, spiral.end.angle}) {
@@ -143,13 +156,16 @@ std::vector<std::int32_t> ReachSearch::left_of(const Stance& stance, const std::
   while (!open.empty()) {
     const std::int32_t index = open.back();
     open.pop_back();
+    // Out of budget: nothing is excluded.
     if (++tests_ > budget_) return candidates;
     beat();
     const BoundaryTree::Node& node = tree_.node(index);
     const Comparison found = compare(view, node);
+    // No point of the stretch is deeper than the slack, wherever on the stance the finger is.
     if (found.most <= most_ + doubt_) continue;
     if (!safe) safe = safe_stretch(tree_, curvature_, slack_, stance);
     if (is_inside(node, *safe)) continue;
+    // What is left over is left to smaller stances, where the stance's own size is what keeps the bound wide.
     if (node.is_single() || found.from_stretch < found.from_stance) {
       left.push_back(index);
     } else {
@@ -164,6 +180,7 @@ void ReachSearch::add_pivots(std::size_t spiral, const std::vector<std::int32_t>
   const Cursor joint = Cursor::at_spiral(turning_, spiral);
   const double before = joint.angle_before();
   const double after = joint.angle_after();
+  // No convex corner: smooth, or concave, where nothing pivots.
   if (after - before <= kTurnAccuracy) return;
   const int count = 1 + static_cast<int>((after - before) / kStanceTurn);
   for (int i = 0; i < count; ++i) {
@@ -176,12 +193,14 @@ void ReachSearch::add_pivots(std::size_t spiral, const std::vector<std::int32_t>
 /// monotone on each stance.
 void ReachSearch::add_rolls(std::size_t index, const std::vector<std::int32_t>& candidates) {
   const Spiral& spiral = turning_.spirals()[index];
+  // kappa + 1 / r: monotone on the spiral, so its sign changes once at most.
   const auto clearance = [&](double s) { return turning_.on_spiral(spiral, s).curvature + curvature_; };
   const int count = 1 + static_cast<int>(std::abs(spiral.turn()) / kStanceTurn);
   for (int i = 0; i < count; ++i) {
     double lo = i == 0 ? spiral.lo : spiral.lo + (spiral.hi - spiral.lo) * i / count;
     const double hi = i + 1 == count ? spiral.hi : spiral.lo + (spiral.hi - spiral.lo) * (i + 1) / count;
     const bool starts_positive = clearance(lo) > 0;
+    // Bisection down to what arc lengths are accurate to.
     if (starts_positive != (clearance(hi) > 0)) {
       Interval bracket{lo, hi};
       while (bracket.width() > kLengthAccuracy * part_.perimeter()) {
@@ -195,10 +214,12 @@ void ReachSearch::add_rolls(std::size_t index, const std::vector<std::int32_t>& 
   }
 }
 
+/// Turn, rotation and length are largest at an end of the stance, as kappa and kappa + k keep their signs on it.
 ReachSearch::View ReachSearch::view_of(const Stance& stance) const {
   View view;
   const Spiral& spiral = turning_.spirals()[stance.spiral];
   double angle = stance.range.middle();
+  // A pivot turns about the corner: the contact stays.
   if (stance.is_pivot) {
     view.point = part_.point(spiral.lo);
     view.turn = view.rotation = 0.5 * stance.range.width();
@@ -234,6 +255,7 @@ ReachSearch::View ReachSearch::view_of_several(const Stance& stance) const {
   }
   const double before = at.start.angle - spirals[stance.spiral].start.angle;
   const double after = spirals[stance.spiral + stance.spirals - 1].end.angle - at.start.angle;
+  // omega at the ends, as seen from the middle: the turn there and k times the way.
   view.rotation = jumps + std::max(std::abs(before + curvature_ * (at.lo - stance.range.lo)),
                                    std::abs(after + curvature_ * (stance.range.hi - at.lo)));
   view.tangent = direction(at.start.angle);
@@ -250,6 +272,8 @@ double ReachSearch::least(const View& view, const Vec2& point) const {
 /// By how much F of a point at this offset, give or take `beside`, changes on the stance at most: T.d changes as well,
 /// d(T.d) = -kappa n.d ds - ds.
 double ReachSearch::change(const View& view, const Vec2& offset, double beside) const {
+  // |dF / d omega| = 2 |T . d|; T . d at the middle, and `drift`: how far it gets on the way to either end, by turning
+  // (|n . d| is |d| at most, and |d| grows by the way) and by moving.
   const double along = std::abs(view.tangent.dot(offset)) + beside;
   const double drift = view.turn * (offset.norm() + beside + view.length) + view.length;
   return 2 * view.rotation * (along + drift);
@@ -263,15 +287,18 @@ ReachSearch::Comparison ReachSearch::compare(const View& view, const BoundaryTre
   const double change_at_end = change(view, node.end - view.point, node.deviation);
 
   Comparison result;
+  // A quadratic plus the line between the changes at both ends.
   const ChordDeepness with_change{on_chord.at_start + change_at_start,
                                   on_chord.slope + (change_at_end - change_at_start), on_chord.bend};
   const double beside_chord = on_chord.beside(node.deviation, curvature_);
   result.most = with_change.most() + beside_chord;
   result.from_stance = std::max(change_at_start, change_at_end);
+  // What would vanish if the stretch were a point; the rest is the stance's.
   result.from_stretch = beside_chord + (with_change.most() - with_change.most_at_ends()) +
                         2 * view.rotation * (std::abs(view.tangent.dot(node.end - node.start)) + node.deviation);
   result.at = node.on_curve;
   result.least = least(view, node.on_curve);
+  // The end of a single stretch is a point of the boundary as well.
   if (!node.is_single()) return result;
   const double at_end = least(view, node.end);
   if (at_end > result.least) {
@@ -288,6 +315,7 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
     add(stance, false);
     return;
   }
+  // It is hit from the middle, but not from everywhere: neither free nor impossible as a whole.
   if (deepness(view.normal, last_hit_ - view.point, curvature_) > most_) {
     split(stance, candidates);
     return;
@@ -295,6 +323,7 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
   std::vector<std::int32_t> open = candidates;
   std::vector<std::int32_t> left;
   std::optional<Interval> safe;
+  // Each turn takes one node: it proves the stance impossible, is excluded, is halved, or is left over.
   while (!open.empty()) {
     beat();
     if (++tests_ > budget_) {
@@ -312,6 +341,7 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
       return;
     }
     if (found.most <= most_ + doubt_) continue;
+    // Only computed for a stance that needs it.
     if (!safe) safe = safe_stretch(tree_, curvature_, slack_, stance);
     if (is_inside(node, *safe)) continue;
     if (deepness(view.normal, found.at - view.point, curvature_) > most_) {
@@ -321,6 +351,8 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
       left.push_back(index);
       break;
     }
+    // Halve the stretch while its size matters more than the stance's, down to a quarter of the doubt; else leave it to
+    // the halves of the stance.
     const bool is_coarse = !node.is_single() || found.from_stretch > std::max(found.from_stance, 0.25 * doubt_);
     const auto [first, second] = is_coarse ? tree_.halves(index) : std::pair(index, index);
     if (first == second) {
@@ -339,6 +371,7 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
 
 void ReachSearch::split(const Stance& stance, const std::vector<std::int32_t>& candidates) {
   const double size = stance.is_pivot ? stance.range.width() : stance.range.width() / part_.perimeter();
+  // Below what arc lengths, or angles, are accurate to.
   if (size <= kShortestStance) {
     add(stance, true);
     return;

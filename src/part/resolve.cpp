@@ -62,6 +62,7 @@ constexpr double kSameSlope = 1e-6;
 constexpr int kCoarseDegree = 8;  // enough for a span between dense points
 constexpr int kFineDegree = 16;
 
+/// The speed vanishes at u, or no panel near it is resolved however short: there is no tangent.
 [[noreturn]] void throw_cusp(const Curve& curve, double u) {
   const Vec2 place = curve.position(u);
   throw InputError(
@@ -70,6 +71,7 @@ constexpr int kFineDegree = 16;
                   place.x(), place.y(), u));
 }
 
+/// The budget of attempts is spent at u: the curve is regular, but its parameter runs too unevenly.
 [[noreturn]] void throw_uneven(const Curve& curve, double u) {
   const Vec2 place = curve.position(u);
   throw InputError(
@@ -78,7 +80,8 @@ constexpr int kFineDegree = 16;
                   kMostAttempts, place.x(), place.y(), u));
 }
 
-/// One attempt at a panel: is the curve resolved on this range by polynomials of this degree?
+/// One attempt at a panel: is the curve resolved on this range by polynomials of this degree? `size` is the outline's
+/// length; only with it can an absolute error be judged.
 template <int Degree>
 class Attempt {
  public:
@@ -94,8 +97,11 @@ class Attempt {
 
   /// Fills the panel and says whether its polynomials are as good as the curve's own rounding errors allow.
   bool fill(ResolvedPanel& panel) {
+    // (1) |alpha'| by powers of x', unless the attempt on the range around this one knew it; (2) its integral is the
+    // arc length; (3) the nodes at equal arc length; (4) kappa there, and its integral, the turn.
     if (!is_even_ && !measure_speed()) return false;
     length_ = chebyshev::antiderivative(speed_, half_);
+    // The integral starts at x' = -1, so its value at x' = 1, the sum of all powers, is the panel's length.
     panel.length = length_.sum();
     return invert_length(panel) && measure_turn(panel);
   }
@@ -111,12 +117,15 @@ class Attempt {
   /// The largest of the last three coefficients: what interpolation has not resolved.
   static double tail(const Values& series) { return series.template segment<3>(Degree - 2).abs().maxCoeff(); }
 
+  /// Samples |alpha'| at the Chebyshev points of the parameter and fits its series. False: not resolved; `halvings_`
+  /// then says how often to halve. Throws on a speed of 0 or one that is not finite.
   bool measure_speed() {
     beat();
     Values squares;
     for (int j = 0; j <= Degree; ++j) {
       squares[j] = curve_.velocity(range_.middle() + half_ * grid_.point(j)).squaredNorm();
     }
+    // The table has an even number of entries: the last one is padding and must only be harmless.
     squares[Degree + 1] = squares[Degree];
     const Values speeds = squares.sqrt();
     if (!(speeds > 0 && speeds < kInfinity).all()) throw_cusp(curve_, range_.middle());
@@ -128,15 +137,20 @@ class Attempt {
       return is_even_ = true;
     }
     const Values series = grid_.coefficients(speeds);
+    // The last three coefficients stand for what a polynomial of this degree leaves out.
     const double rest = tail(series);
     // The parameter's own rounding moves each node: what the speed changes by on the way is noise as well.
     const double noise = kSeriesNoise * most + parameter_noise_ * (most - least) / half_;
+    // How often the rest is above what is allowed, by the milder of two measures: relative to the speed's rounding, and
+    // as a length on this panel beside the whole outline.
     const double excess = std::min(rest / noise, rest * range_.width() / (kLengthNoise * size_));
     if (excess > 1) {
+      // One halving makes the rest smaller by a factor of 2^kMostGain at most, so fewer halvings would fail again.
       halvings_ += static_cast<int>(std::log2(excess) / kMostGain);
       return false;
     }
     speed_ = grid_.powers(series);
+    // The same series then serves both halves, without another sampling.
     is_even_ = rest <= noise && most <= kEvenSpeed * least;
     return true;
   }
@@ -144,6 +158,7 @@ class Attempt {
   /// The parameters x at which the length about the middle is so much, by the series that reverts that of the length,
   /// up to its fourth power.
   Inner first_guess(const Inner& lengths) const {
+    // length = a1 (x' + b2 x'^2 + b3 x'^3 + b4 x'^4); reversed: x' = y - b2 y^2 + (2 b2^2 - b3) y^3 + ...
     const double b2 = length_[2] / length_[1];
     const double b3 = length_[3] / length_[1];
     const double b4 = length_[4] / length_[1];
@@ -152,18 +167,23 @@ class Attempt {
     return x.cwiseMax(-1).cwiseMin(1);
   }
 
-  /// u where the arc length is resolved: Newton's method on the length's polynomial. The ends are known.
+  /// The nodes: u at the Chebyshev points of arc length, by Newton's method on the length's polynomial for all of them
+  /// at once; the two ends are known. Fills `inner_`, `nodes_` and the panel's u(x). False: a node left the panel, so
+  /// Newton's method did not converge there.
   bool invert_length(ResolvedPanel& panel) {
+    // The lengths, from the panel's start, at which the Chebyshev points of x lie.
     const Inner targets = (grid_.inner() + 1) * (0.5 * panel.length);
     inner_ = first_guess(targets - length_[0]);
     Inner slopes;
     double last_step = 1;
     for (int round = 0; round < kNewtonRounds && last_step > kNewtonStep; ++round) {
+      // The derivative of length by x' is speed times half the range. A last step with the slope before is as good.
       if (last_step > kSameSlope) slopes = chebyshev::values(speed_, inner_) * half_;
       const Inner steps = (targets - chebyshev::values(length_, inner_)) / slopes;
       inner_ += steps;
       last_step = steps.abs().maxCoeff();
     }
+    // The ends are set, so that neighbouring panels share their end to the last bit.
     nodes_[0] = range_.lo;
     nodes_.template segment<Degree - 1>(1) = (inner_ * half_ + range_.middle()).template head<Degree - 1>();
     nodes_.template tail<2>().setConstant(range_.hi);
@@ -171,7 +191,10 @@ class Attempt {
     return (inner_.abs() <= 1).all();
   }
 
+  /// Samples kappa at the nodes, fits its series in x and integrates it to the turn. False: speed or curvature is not
+  /// resolved, or the turn does not agree with the tangents at both ends within kTurnAgreement (radians).
   bool measure_turn(ResolvedPanel& panel) {
+    // Position and derivatives at the nodes; speed and kappa are made of them.
     std::array<Jet, Degree + 1> jets;
     Values squares;
     Values crosses;
@@ -183,21 +206,26 @@ class Attempt {
     squares[Degree + 1] = squares[Degree];
     crosses[Degree + 1] = crosses[Degree];
     const Values speeds = squares.sqrt();
+    // First check: these speeds are at other places than those that the series was fitted to.
     speed_agrees_ = agree(speeds, jets);
     if (!speed_agrees_) return false;
     const Values curvatures = crosses / (squares * speeds);  // (alpha' cross alpha'') / |alpha'|^3
     Values series = grid_.coefficients(curvatures);
     const auto noise = [&] { return curvature_noise(jets, curvatures); };
     const double rest = tail(series);
+    // Resolved by any of three measures: relative to the largest kappa, as an angle over the panel, or as noise of the
+    // curve's own formula. The last is the dearest, so it comes last.
     if (rest > kSeriesNoise * curvatures.abs().maxCoeff() && rest * panel.length > kTurnNoise && rest > noise()) {
       return false;
     }
     const int count = recognize_arc(series, panel.length);
     const Values powers = grid_.powers(series);
     panel.curvature = powers.head(count);
+    // Theta is the integral of kappa ds, and ds = length / 2 dx.
     panel.turn = chebyshev::antiderivative(powers, 0.5 * panel.length).head(count + 1);
     panel.tangent_at_start = jets.front().first;
     panel.tangent_at_end = jets.back().first;
+    // Second check: the directions at both ends know the turn up to whole laps, without any quadrature.
     const double between = angle_between(panel.tangent_at_start, panel.tangent_at_end);
     const double off = std::abs(nearest_angle(between - panel.turn.sum()));
     return off <= kTurnAgreement || off <= kTurnAgreement + noise() * panel.length;
@@ -206,6 +234,7 @@ class Attempt {
   /// Is the speed between the points that it was measured at what its series says?
   bool agree(const Values& speeds, const std::array<Jet, Degree + 1>& jets) const {
     const Inner off = (speeds.template segment<Degree>(1) - chebyshev::values(speed_, inner_)).abs();
+    // The ends are at nodes of both grids and would tell nothing new.
     for (int j = 1; j < Degree; ++j) {
       const double limit = kSpeedAgreement * speeds[j];
       if (off[j - 1] > limit && off[j - 1] > limit + parameter_noise_ * jets[static_cast<std::size_t>(j)].second.norm())
@@ -214,6 +243,8 @@ class Attempt {
     return true;
   }
 
+  /// How far rounding may move kappa (1 / length) on this panel: by its own terms, |alpha''| / |alpha'|^2 being the
+  /// size of one that may cancel, and by the parameter, which moves each node along d kappa / du.
   double curvature_noise(const std::array<Jet, Degree + 1>& jets, const Values& curvatures) const {
     double noise = 0;
     for (int j = 0; j <= Degree; ++j) {
@@ -224,11 +255,15 @@ class Attempt {
     return noise;
   }
 
-  /// How many coefficients of the curvature count; the others are made 0.
+  /// How many coefficients of the curvature count; the others are made 0. A panel whose turn is that of an arc to 1e-13
+  /// rad gets one coefficient, the arc's curvature; one that is straight to 1e-13 rad gets the coefficient 0. So a
+  /// spiral on it is an arc or a line exactly, with `trend` 0.
   static int recognize_arc(Values& series, double length) {
     const double most = series.abs().maxCoeff();
+    // Coefficients at the end that are below rounding of the largest.
     int count = Degree + 1;
     while (count > 1 && std::abs(series[count - 1]) <= kEpsilon * most) --count;
+    // |T_k| <= 1: the sum of the other coefficients bounds how far kappa gets from its mean.
     if (series.template tail<Degree + 1>().abs().sum() * length <= kStructureTurn) count = 1;
     series.tail(Degree + 2 - count).setZero();
     if (count == 1 && std::abs(series[0]) * length <= kStructureTurn) series[0] = 0;
@@ -236,21 +271,22 @@ class Attempt {
   }
 
   const Curve& curve_;
-  double size_;
-  Interval range_;
-  double half_;
+  double size_;     // the outline's length or so
+  Interval range_;  // of the parameter u
+  double half_;     // of the range's width
   const Grid<Degree>& grid_;
   static constexpr double kMostGain = Degree + 4;  // halving makes coefficient k smaller by about 2^k
-  int halvings_ = 1;
-  bool is_even_ = false;  // the speed's noise is small beside the speed, wherever on the range that is
-  bool speed_agrees_ = false;
-  double parameter_noise_ = 0;
-  Values speed_;   // |alpha'| by powers of x in [-1, 1] of the parameter
-  Values length_;  // arc length from the panel's start, likewise
-  Inner inner_;    // where in that x the nodes of equal arc length lie, but for the ends
-  Values nodes_;   // the same as parameters u, with the ends
+  int halvings_ = 1;                               // after a failure: of the range before the next attempt
+  bool is_even_ = false;        // the speed's noise is small beside the speed, wherever on the range that is
+  bool speed_agrees_ = false;   // the first check was passed
+  double parameter_noise_ = 0;  // rounding of u, in its own unit
+  Values speed_;                // |alpha'| by powers of x in [-1, 1] of the parameter
+  Values length_;               // arc length from the panel's start, likewise
+  Inner inner_;                 // where in that x the nodes of equal arc length lie, but for the ends
+  Values nodes_;                // the same as parameters u, with the ends
 };
 
+/// Cuts one curve into panels: halves its domain until an attempt succeeds, and hands the panels over in order.
 class Resolver {
  public:
   Resolver(const Curve& curve, double size, std::size_t& spent, const std::function<void(const ResolvedPanel&)>& sink)
@@ -258,6 +294,8 @@ class Resolver {
 
   void run() {
     const Interval domain = curve_.domain();
+    // Between dense points a span is one panel of the low degree, at half the memory. All else is halved at the high
+    // one.
     Attempt<kCoarseDegree> attempt(curve_, size_, domain);
     if (attempt.fill(panel_)) {
       sink_(panel_);
@@ -269,11 +307,14 @@ class Resolver {
  private:
   using Fine = Attempt<kFineDegree>;
 
-  /// Halves the range so often before it tries.
+  /// Halves the range so often before it tries. `speed`: the speed's series on this range, where the attempt on the
+  /// range around it found it. Ends after some 37 halvings: then the range is below kShortestPanel, a cusp.
   void cut(const Interval& range, int halvings, const Fine::Values* speed = nullptr) {
     std::array<Fine::Values, 2> speeds;
     bool has_speeds = false;
     if (halvings == 0) {
+      // The first attempts of each curve are free, so that an outline of many curves is not stopped by its number of
+      // curves.
       if (++attempts_ > kOwnAttempts && ++spent_ > kMostAttempts) throw_uneven(curve_, range.middle());
       Fine attempt(curve_, size_, range, speed);
       if (attempt.fill(panel_)) return sink_(panel_);
@@ -281,6 +322,7 @@ class Resolver {
       has_speeds = attempt.has_speed();
       if (has_speeds) speeds = attempt.speeds_of_halves();
     }
+    // Also after halvings without an attempt: a range this short is not halved further.
     if (range.width() <= kShortestPanel * curve_.domain().width()) throw_cusp(curve_, range.middle());
     cut({range.lo, range.middle()}, halvings - 1, has_speeds ? &speeds[0] : nullptr);
     cut({range.middle(), range.hi}, halvings - 1, has_speeds ? &speeds[1] : nullptr);
@@ -288,10 +330,10 @@ class Resolver {
 
   const Curve& curve_;
   double size_;
-  std::size_t attempts_ = 0;
+  std::size_t attempts_ = 0;  // at panels of this curve
   std::size_t& spent_;
   const std::function<void(const ResolvedPanel&)>& sink_;
-  ResolvedPanel panel_;
+  ResolvedPanel panel_;  // that is being filled
 };
 
 }  // namespace

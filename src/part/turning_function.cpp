@@ -25,6 +25,8 @@
 // start the curve's own tangent corrects the angle that was integrated, so that roundings do not add up.
 namespace rollfix {
 
+/// Binary search by the spirals' starts: the last one that starts at or before base (Side::after), or before it
+/// (Side::before). A base below the first start counts as on the first.
 std::size_t TurningFunction::spiral_at(double base, Side side) const {
   const auto after = side == Side::after
                          ? std::upper_bound(spirals_.begin(), spirals_.end(), base,
@@ -35,6 +37,7 @@ std::size_t TurningFunction::spiral_at(double base, Side side) const {
 }
 
 Turning TurningFunction::at(double s, Side side) const {
+  // Theta(s + k P) = Theta(s) + k period_turn: only s within one lap is looked up.
   const Wrapped place = boundary().reduced(s, side);
   const Spiral& spiral = spirals_[spiral_at(place.base, side)];
   Turning turning = place.base == spiral.lo   ? spiral.start  // a joint: no need to look
@@ -44,6 +47,7 @@ Turning TurningFunction::at(double s, Side side) const {
   return turning;
 }
 
+/// The first panel of these that ends behind base, by binary search; `last` where none does.
 std::uint32_t TurningFunction::middle_panel(std::uint32_t first, std::uint32_t last, double base) const {
   const auto found = std::upper_bound(panels_.begin() + first, panels_.begin() + last, base,
                                       [](double value, const Panel& panel) { return value < panel.hi; });
@@ -52,6 +56,8 @@ std::uint32_t TurningFunction::middle_panel(std::uint32_t first, std::uint32_t l
 
 Powers TurningFunction::difference(const Panel& start, double start_middle, const Panel& end, double end_middle,
                                    double half) const {
+  // Both polynomials are brought to y: first their variable x is moved to the new middle, then scaled. The difference
+  // is formed power by power, so that what both have in common cancels before any bound is taken.
   const std::size_t count = std::max(start.count, end.count);
   std::array<Pair, kMostPowers> powers;  // of the end and of the start: one vector instruction serves both
   for (std::size_t k = 0; k < count; ++k) {
@@ -89,6 +95,7 @@ constexpr int kSizeSamples = 8;
 // A sign change this close to a panel's end, as a share of the panel, is at the end.
 constexpr double kPanelEnd = 1e-9;
 
+/// d/dx by powers; of a constant the empty series.
 Series derivative(const Series& powers) {
   const Eigen::Index count = std::max<Eigen::Index>(powers.size() - 1, 0);
   Series result(count);
@@ -96,6 +103,8 @@ Series derivative(const Series& powers) {
   return result;
 }
 
+/// The length of a polygon of kSizeSamples chords for each curve: a size to hold errors against; too small where a
+/// curve turns much from one sample to the next.
 double rough_length(const Outline& outline) {
   double sum = 0;
   for (const Curve& curve : outline.curves) {
@@ -118,6 +127,7 @@ constexpr double kNoShare = 8e-16;
 
 }  // namespace
 
+/// Horner's scheme; an empty piece cannot be.
 double Parametrization::parameter(std::size_t panel, double x) const {
   const Piece& piece = pieces[panel];
   double sum = 0;
@@ -125,6 +135,7 @@ double Parametrization::parameter(std::size_t panel, double x) const {
   return sum;
 }
 
+/// Measures the whole outline. The time is linear in the number of panels.
 TurningFunctionBuilder::TurningFunctionBuilder(const Outline& outline) : outline_(outline) {
   if (outline.curves.empty()) throw InputError("expected an outline of at least one curve, found none");
   size_ = rough_length(outline);
@@ -140,6 +151,8 @@ TurningFunctionBuilder::TurningFunctionBuilder(const Outline& outline) : outline
   close();
 }
 
+/// Between curve and curve a gap up to kGap of the size, or up to what the outline says of itself, is jumped over: it
+/// adds no length.
 void TurningFunctionBuilder::add_curve(std::uint32_t index) {
   const Curve& curve = outline_.curves[index];
   const std::size_t before = index > 0 ? index - 1 : outline_.curves.size() - 1;
@@ -163,19 +176,23 @@ void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint3
       std::abs(length_) >= resolved.length ? (length_ - sum) + resolved.length : (resolved.length - sum) + length_;
   length_ = sum;
   Panel panel;
+  // A panel starts at the very number where the one before ends: no place lies between them.
   panel.lo = turning.panels_.empty() ? 0 : turning.panels_.back().hi;
   panel.hi = length_ + length_rest_;
   // Beside a place where a curve is at rest: what it turns there goes to the joint.
   if (resolved.length < kLeastPanel * panel.hi) return;
+  // From here on angle_ is Theta at the panel's start, as the curve's own tangent has it.
   join(resolved.tangent_at_start, panel.lo);
   panel.middle = panel.lo + 0.5 * (panel.hi - panel.lo);
   panel.inverse_half = 2 / (panel.hi - panel.lo);
 
+  // Theta = Theta at the start + the turn since then.
   Series turn = resolved.turn;
   turn[0] += angle_;
   store(turn, resolved.curvature, panel);
   turning.panels_.push_back(panel);
 
+  // Of a dense outline the powers of u(x) that are below its rounding are left out.
   const Series& parameter = resolved.parameter;
   const double least = kNoShare * parameter.cwiseAbs().maxCoeff();
   Eigen::Index size = parameter.size();
@@ -184,12 +201,16 @@ void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint3
       {curve, static_cast<std::uint32_t>(parametrization.coefficients.size()), static_cast<std::uint32_t>(size)});
   parametrization.coefficients.insert(parametrization.coefficients.end(), parameter.begin(), parameter.begin() + size);
 
+  // The integral's value at x = 1: Theta at the panel's end.
   angle_ += resolved.turn.sum();
   add_spirals(resolved.curvature);
 }
 
+/// A scan: its panels are so many that memory decides, and so short that few powers count.
 bool TurningFunctionBuilder::is_dense() const { return outline_.curves.size() >= kManyCurves; }
 
+/// Powers whose share of Theta, and of kappa times half the panel's length, is below kNoTurn rad are dropped from the
+/// end. The number of powers is filled up to a multiple of kPanelBlock, as the evaluation takes four at a time.
 void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, Panel& panel) {
   auto& all = turning.coefficients_;
   panel.offset = static_cast<std::uint32_t>(all.size());
@@ -204,9 +225,12 @@ void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, 
   panel.count = static_cast<std::uint32_t>(all.size()) - panel.offset;
 }
 
-/// The tangent's own direction corrects the accumulated angle, so that roundings do not add up.
+/// The tangent's own direction corrects the accumulated angle, so that roundings do not add up. The jump is taken in
+/// (-pi, pi]: above kCornerTurn it is a corner, at which Theta has two values; below it is rounding. A jump of nearly
+/// pi has no sign that could be trusted: a cusp, refused.
 void TurningFunctionBuilder::join(const Vec2& direction, double s) {
   const double own_angle = std::atan2(direction.y(), direction.x());
+  // The first panel: Theta starts with its tangent's angle, in (-pi, pi].
   if (turning.panels_.empty()) {
     angle_ = first_angle_ = own_angle;
     first_direction_ = direction;
@@ -224,7 +248,8 @@ void TurningFunctionBuilder::join(const Vec2& direction, double s) {
   corners.push_back({s, jump});
 }
 
-/// Cuts the newest panel where its curvature or the curvature's slope changes sign.
+/// Cuts the newest panel where kappa changes its sign (inflection) or kappa' does (vertex). Between two cuts kappa
+/// keeps its sign and is monotone: part of a spiral.
 void TurningFunctionBuilder::add_spirals(const Series& curvature) {
   const auto index = static_cast<std::uint32_t>(turning.panels_.size() - 1);
   const Panel& panel = turning.panels_[index];
@@ -232,9 +257,11 @@ void TurningFunctionBuilder::add_spirals(const Series& curvature) {
   const std::vector<double> slope_cuts = chebyshev::sign_changes(derivative(curvature));
   cuts.insert(cuts.end(), slope_cuts.begin(), slope_cuts.end());
   std::sort(cuts.begin(), cuts.end());
+  // The cuts are in rising order; each ends the piece that started at the cut before.
   double lo = panel.lo;
   for (const double cut : cuts) {
     if (1 - std::abs(cut) < kPanelEnd) continue;
+    // From x back to arc length. Two cuts that round to one place make one cut.
     const double hi = panel.middle + cut / panel.inverse_half;
     if (hi > lo) {
       add_spiral(lo, hi, index);
@@ -250,6 +277,7 @@ void TurningFunctionBuilder::add_spiral(double lo, double hi, std::uint32_t pane
   spiral.lo = lo;
   spiral.hi = hi;
   spiral.first_panel = spiral.last_panel = panel;
+  // One-sided: both ends are evaluated on this panel.
   spiral.start = turning.on_spiral(spiral, lo);
   spiral.end = turning.on_spiral(spiral, hi);
   const double change = spiral.end.curvature - spiral.start.curvature;
@@ -257,7 +285,10 @@ void TurningFunctionBuilder::add_spiral(double lo, double hi, std::uint32_t pane
   turning.most_curvature_ =
       std::max({turning.most_curvature_, std::abs(spiral.start.curvature), std::abs(spiral.end.curvature)});
   std::vector<Spiral>& all = turning.spirals_;
+  // The sign of kappa: on a spiral both ends have the same sign, or one of them is 0.
   const auto side = [](const Spiral& one) { return one.start.curvature + one.end.curvature; };
+  // Only within one curve, where kappa is continuous, can a spiral go on across a panel's end: with the same trend and
+  // on the same side of 0.
   if (!new_curve_ && all.back().trend == spiral.trend && side(all.back()) * side(spiral) >= 0) {
     all.back().hi = hi;
     all.back().end = spiral.end;
@@ -271,6 +302,7 @@ void TurningFunctionBuilder::add_spiral(double lo, double hi, std::uint32_t pane
 void TurningFunctionBuilder::close() {
   turning.perimeter_ = turning.panels_.back().hi;
   turning.panels_.back().hi = turning.spirals_.back().hi = turning.perimeter_;
+  // The seam is a joint like any other: the first tangent, seen from the last panel's end.
   if (!outline_.closed) return;
   const std::size_t found = corners.size();
   join(first_direction_, turning.perimeter_);
@@ -278,6 +310,7 @@ void TurningFunctionBuilder::close() {
     corners.insert(corners.begin(), Corner{0, corners.back().turn});
     corners.pop_back();
   }
+  // angle_ is now the first tangent's angle plus whole turns; rounding to 2 pi k leaves no error in them.
   const double full = 2 * std::numbers::pi;
   turning.period_turn_ = full * std::round((angle_ - first_angle_) / full);
 }

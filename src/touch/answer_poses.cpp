@@ -30,6 +30,8 @@ constexpr double kContinuum = 12;
 // Headings of extents are rounded, radians.
 constexpr double kHeadingRounding = 1e-12;
 
+/// Residuals with their sign for the normal, the distance for the place. Of a roll with noise they are those of the
+/// node's means.
 TouchContact contact_of(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& place) {
   const CentrePoint point = fit.path(touch).at(place);
   const InPart at = fit.in_part(pose, touch);
@@ -49,11 +51,13 @@ TouchContact contact_of(const PoseFit& fit, const Pose& pose, std::size_t touch,
 }
 
 /// Whether arcs leave no heading out.
+/// The arcs of all cells, cut to one turn, swept in order: a gap means that some heading is missing.
 bool cover_all(const std::vector<Cell>& cells) {
   std::vector<Interval> arcs;
   for (const Cell& cell : cells) {
     if (cell.heading.is_all()) return true;
     const double middle = nearest_angle(cell.heading.middle);
+    // An arc may cross -pi or pi: its copies a turn away are looked at as well.
     for (const double lap : {-kFullTurn, 0.0, kFullTurn}) {
       const Interval arc{middle - cell.heading.half + lap, middle + cell.heading.half + lap};
       if (arc.hi >= -std::numbers::pi && arc.lo <= std::numbers::pi) arcs.push_back(arc);
@@ -62,6 +66,7 @@ bool cover_all(const std::vector<Cell>& cells) {
   std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
   double reached = -std::numbers::pi;
   for (const Interval& arc : arcs) {
+    // A gap between `reached` and this arc.
     if (arc.lo > reached) break;
     reached = std::max(reached, arc.hi);
   }
@@ -75,14 +80,18 @@ void extend(Interval& interval, double lo, double hi) {
 
 /// Whether the touches leave the part free to move: in some direction they would hardly hold it, if its sides were as
 /// long as they are straight there.
+/// By the least eigenvalue of the information, with headings scaled to lengths; a matrix that is not regular counts as
+/// a continuum.
 bool is_continuum(const PoseFit& fit, const FittedPose& fitted) {
   double least = std::numeric_limits<double>::infinity();
   for (const Measured& touch : fit.touches()) {
     if (touch.has_place) least = std::min(least, touch.place_most);
   }
+  // A turn moves the part's rim by half its diagonal: so headings count as lengths.
   const Eigen::Vector3d scale(1, 1, 2 / fit.path(0).diagonal());
   const Eigen::Matrix3d information = scale.asDiagonal() * fitted.information * scale.asDiagonal();
   const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvalues()(0);
+  // 1 / sqrt(weakest) is how far the part can move, in lengths, at one standard deviation or tolerance.
   return !(weakest > 1 / (kContinuum * kContinuum * least * least));
 }
 
@@ -92,12 +101,15 @@ bool is_free(const PoseFit& fit, const FittedPose& fitted, const TouchPair& pair
              const std::array<Interval, 3>& extent) {
   const std::vector<Measured>& contacts = fit.touches();
   const Measured& first = contacts[pair.first];
+  // x and y follow from the reference: there is nothing to slide.
   if (is_reference(first)) return false;
   const bool any_rolls =
       std::any_of(contacts.begin(), contacts.end(), [](const Measured& contact) { return contact.is_roll; });
   const bool has_noise =
       std::any_of(contacts.begin(), contacts.end(), [](const Measured& contact) { return contact.roll != nullptr; });
+  // Touches, and rolls with noise, by the information at the best pose.
   if (!any_rolls || has_noise) return is_continuum(fit, fitted);
+  // Of rolls without noise: more room than the tolerances make.
   const double place = kFreePlace * fit.path(0).part().perimeter() + kFreeTolerances * first.place_most;
   const double heading = kFreeHeading + kFreeTolerances * (first.tangent ? first.angle_most : 0);
   return std::max(extent[0].width(), extent[1].width()) > place || extent[2].width() > heading;
@@ -105,6 +117,7 @@ bool is_free(const PoseFit& fit, const FittedPose& fitted, const TouchPair& pair
 
 }  // namespace
 
+/// Of no cells: lo above hi.
 std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair,
                                   const Pose& about) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -114,17 +127,21 @@ std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& c
   for (const Cell& cell : cells) {
     const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
     const Pose turn{0, 0, cell.heading.middle};
+    // X = q_1 - R(phi) c, at the middle of disc and headings.
     const Vec2 place = first.at - turn.turned(node.middle);
     const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
+    // A reference has no tolerance: the pose is counted from it.
     const double slack = node.radius + (is_reference(first) ? 0 : first.place_most) + swing * node.middle.norm();
     extend(extent[0], place.x() - slack, place.x() + slack);
     extend(extent[1], place.y() - slack, place.y() + slack);
+    // Unwrapped about the given heading; a set that goes all around is told by `any_heading`.
     const double off = about.heading + nearest_angle(cell.heading.middle - about.heading);
     extend(extent[2], off - cell.heading.half, off + cell.heading.half);
   }
   return extent;
 }
 
+/// kTouchSigmas of each node's own standard deviations.
 PoseExtent extent_of(const PoseMode& mode, const std::vector<PosteriorNode>& nodes, const Pose& about) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   PoseExtent extent;
@@ -141,6 +158,7 @@ PoseExtent extent_of(const PoseMode& mode, const std::vector<PosteriorNode>& nod
   return extent;
 }
 
+/// The heading by its distance from the middle of the extent, which may be wider than a turn.
 bool holds(const PoseExtent& extent, const Pose& pose, double place, double turn) {
   const auto is_in = [](const Interval& one, double value, double slack) {
     return value >= one.lo - slack && value <= one.hi + slack;
@@ -154,6 +172,7 @@ TouchContact nearest_contact(const PoseFit& fit, const Pose& pose, std::size_t t
   return contact_of(fit, pose, touch, nearest_place(fit.tree(touch), fit.in_part(pose, touch)).place);
 }
 
+/// Over all places and normals; of a roll with noise its miss in standard deviations, as a share.
 double worst_of(const PoseFit& fit, const FittedPose& fitted) {
   double worst = 0;
   for (std::size_t k = 0; k < fitted.places.size(); ++k) {
@@ -170,6 +189,7 @@ double worst_of(const PoseFit& fit, const FittedPose& fitted) {
   return worst;
 }
 
+/// In order, those that meet joined; a corner is a point. Nodes that are not single are followed down to stretches.
 std::vector<Interval> places_of(const PathTree& tree, const std::vector<Cell>& cells) {
   std::vector<Interval> arcs;
   for (const Cell& cell : cells) {
@@ -198,6 +218,7 @@ std::vector<Interval> places_of(const PathTree& tree, const std::vector<Cell>& c
   return merged;
 }
 
+/// `probability`, `spread`, `interval` and `density` stay unset: `add_posterior` has them.
 TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,
                     const TouchPair& pair) {
   TouchPose result;
@@ -211,6 +232,7 @@ TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vec
   result.worst = worst_of(fit, fitted);
   result.any_heading = !fit.knows_heading() && cover_all(cells);
   result.extent = extent_of(fit, cells, pair, fitted.pose);
+  // Then the heading's extent is one turn about the fitted pose.
   if (result.any_heading) {
     result.extent[2] = {fitted.pose.heading - std::numbers::pi, fitted.pose.heading + std::numbers::pi};
   }
@@ -218,6 +240,8 @@ TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vec
   return result;
 }
 
+/// Moments of the mixture of the mode's nodes, about the fitted pose so that little is lost to rounding. Intervals of
+/// 95 % are quantiles of the mixture, not of a normal distribution.
 void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
   double most = -std::numeric_limits<double>::infinity();
   for (const std::size_t k : mode.nodes) most = std::max(most, nodes[k].log_weight);
@@ -229,10 +253,12 @@ void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<Post
   for (const std::size_t k : mode.nodes) {
     const PosteriorNode& node = nodes[k];
     const double weight = std::exp(node.log_weight - most);
+    // Less than rounding of the sum.
     if (!(weight > 1e-16)) continue;
     const Eigen::Vector3d off(node.pose.x - origin(0), node.pose.y - origin(1),
                               nearest_angle(node.pose.heading - origin(2)));
     for (int i = 0; i < 3; ++i) {
+      // Each coordinate by itself: one term of its mixture for each node.
       terms[static_cast<std::size_t>(i)].push_back({weight, origin(i) + off(i), std::sqrt(node.covariance(i, i))});
     }
     total += weight;

@@ -15,6 +15,7 @@ namespace rollfix::touch {
 TouchContact nearest_contact(const PoseFit& fit, const Pose& pose, std::size_t touch);
 
 /// The share of its tolerance that the worst residual takes.
+/// At most 1: all of them are within their tolerances.
 double worst_of(const PoseFit& fit, const FittedPose& fitted);
 
 /// Intervals of x, y and the heading, in radians.
@@ -22,6 +23,7 @@ using PoseExtent = std::array<Interval, 3>;
 
 /// Around all poses that have their first two contacts on one of the cells; the heading is unwrapped about that of
 /// `about`.
+/// An outer bound: poses of the box need not fit.
 PoseExtent extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, const Pose& about);
 
 /// Around the nodes of a mode, each with its own spread.
@@ -38,6 +40,7 @@ TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vec
                     const TouchPair& pair);
 
 /// Adds what the posterior knows of a mode.
+/// REQUIRES a mode with nodes.
 void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes);
 
 }  // namespace rollfix::touch

@@ -26,6 +26,7 @@ namespace rollfix::touch {
 namespace {
 
 // Headings are rounded, radians.
+// Every test on headings is wider by it, so that rounding drops no cell.
 constexpr double kGrain = 1e-12;
 
 // Strips tell more than discs where they are longer than what touches are off by, and where two chords' ends are on
@@ -33,11 +34,14 @@ constexpr double kGrain = 1e-12;
 constexpr double kAlike = 0.3;
 
 /// How far from its middle the centres of a node are across a direction by which its own has this cosine and sine.
+/// Its centres lie within `radius` of the middle, and within `flat` of its own line: both bound it, the smaller counts.
 double across(double radius, double flat, double cosine, double sine) {
   return std::min(radius, cosine * flat + sine * radius);
 }
 
-/// Every vector from a centre of one single node to one of another.
+/// Every vector from a centre of one single node to one of another. The box has the direction of `from`. Along it, `to`
+/// reaches cos * radius + sin * flat, across it cos * flat + sin * radius: in each the cosine and the sine change
+/// places.
 VectorBox chords(const PathTree::Node& from, const PathTree::Node& to) {
   const Vec2 middle = to.middle - from.middle;
   const double cosine = std::abs(from.along.dot(to.along));
@@ -48,7 +52,9 @@ VectorBox chords(const PathTree::Node& from, const PathTree::Node& to) {
   return {from.along, {at.x() - ahead, at.x() + ahead}, {at.y() - left, at.y() + left}};
 }
 
-/// Cells in order, and which of them are neighbours.
+/// Cells in order, and which of them are neighbours. REQUIRES that cells are sorted by the first touch's number, then
+/// by the second's. All neighbours are found where the nodes of each touch are the leaves of one fineness, which do not
+/// overlap. All cells with one first node are a column.
 class Neighbours {
  public:
   Neighbours(const PathTree& first, const PathTree& second, const std::vector<Cell>& cells)
@@ -60,6 +66,7 @@ class Neighbours {
   }
 
   /// Calls `found(i, j)` for neighbouring cells with the same stretch for the first touch.
+  /// Each pair is found twice, once from either side.
   template <class Found>
   void within(const Found& found) const {
     for (const Column& column : columns_) {
@@ -68,6 +75,8 @@ class Neighbours {
   }
 
   /// The same for those with neighbouring ones.
+  /// Leaves do not overlap, so a column's only neighbours are the next one and, across the start, the first after the
+  /// last. A gap of the path or of the cells between two columns shows in their numbers.
   template <class Found>
   void between(const Found& found) const {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -78,18 +87,23 @@ class Neighbours {
   }
 
  private:
+  // From the first cell of a column to behind its last one.
   using Column = std::pair<std::size_t, std::size_t>;
 
+  // Numbers of the places of cell k, of the first touch and of the second.
   const Interval& first(std::size_t k) const { return first_.node(cells_[k].first).number; }
   const Interval& second(std::size_t k) const { return second_.node(cells_[k].second).number; }
 
   /// Whether the numbers of places meet, also across the start of a closed path.
+  /// `period` 0: the path does not go round.
   static bool touch(const PathTree& tree, const Interval& one, const Interval& other) {
     if (one.lo <= other.hi && other.lo <= one.hi) return true;
     const double period = tree.path().period();
     return period > 0 && ((one.hi >= period && other.lo <= 0) || (other.hi >= period && one.lo <= 0));
   }
 
+  /// Calls `found(k, j)` for each cell j of the column whose second place meets that of cell k, and whose headings do.
+  /// The column is sorted: bisection, then one pass over those that meet.
   template <class Found>
   void each_in(const Column& column, std::size_t k, const Found& found) const {
     const Interval& at = second(k);
@@ -103,6 +117,7 @@ class Neighbours {
       (second(middle).hi < at.lo ? lo : hi) = second(middle).hi < at.lo ? middle + 1 : middle;
     }
     for (std::size_t j = lo; j < column.second && second(j).lo <= at.hi; ++j) try_one(j);
+    // On a closed path the first and the last cell of the column can be neighbours of any.
     try_one(column.first);  // across the start
     try_one(column.second - 1);
   }
@@ -115,6 +130,8 @@ class Neighbours {
 
 }  // namespace
 
+/// Compares all pairs of touches by (how many have a place, how many have a normal, distance in the world), the larger
+/// first. A long chord fixes the heading best: it is off by about (delta_1 + delta_2) / distance.
 TouchPair choose_pair(const std::vector<Measured>& touches) {
   TouchPair best;
   std::tuple<int, int, double> most{-1, -1, -1};
@@ -124,6 +141,7 @@ TouchPair choose_pair(const std::vector<Measured>& touches) {
       const Measured& other = touches[j];
       const int places = (one.has_place ? 1 : 0) + (other.has_place ? 1 : 0);
       const int normals = (one.tangent ? 1 : 0) + (other.tangent ? 1 : 0);
+      // Without both places there is no chord, and the distance does not count.
       const double apart = places == 2 ? (other.at - one.at).norm() : 0;
       const std::tuple<int, int, double> worth{places, normals, apart};
       if (worth <= most) continue;
@@ -136,6 +154,7 @@ TouchPair choose_pair(const std::vector<Measured>& touches) {
   return best;
 }
 
+/// REQUIRES two touches or more.
 CellSearch::CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget,
                        std::size_t most_cells)
     : touches_(touches), pair_(pair), budget_(budget), most_cells_(most_cells) {
@@ -144,6 +163,8 @@ CellSearch::CellSearch(const std::vector<Measured>& touches, const TouchPair& pa
   }
 }
 
+/// Every start cell begins with the whole boundary as each further touch's list. Comparisons count on over all
+/// searches.
 Cells CellSearch::search(const std::vector<Cell>& from, double leaf) {
   leaf_ = leaf;
   found_ = {};
@@ -159,6 +180,7 @@ Cells CellSearch::search(const std::vector<Cell>& from, double leaf) {
   return std::move(found_);
 }
 
+/// phi = tau - theta, within w + eps: the headings with the touch on this node by its normal. All, without a normal.
 HeadingArc CellSearch::by_normal(std::size_t touch, std::int32_t node) const {
   const Measured& one = touches_[touch];
   if (!one.tangent) return {};
@@ -166,6 +188,7 @@ HeadingArc CellSearch::by_normal(std::size_t touch, std::int32_t node) const {
   return {nearest_angle(*one.tangent - at.angle), at.half_turn + one.angle_most + kGrain};
 }
 
+/// phi +- h of a cell: what the normals and, of two places, the chord leave. Empty: no pose has its touches on (a, b).
 HeadingArc CellSearch::headings(const Cell& cell) const {
   const HeadingArc by_normals = common(by_normal(pair_.first, cell.first), by_normal(pair_.second, cell.second));
   const Measured& one = touches_[pair_.first];
@@ -173,16 +196,20 @@ HeadingArc CellSearch::headings(const Cell& cell) const {
   if (by_normals.is_empty() || !one.has_place || !other.has_place) return by_normals;
   const PathTree::Node& first = tree(pair_.first).node(cell.first);
   const PathTree::Node& second = tree(pair_.second).node(cell.second);
+  // The chord q_2 - q_1 is c_b - c_a turned by phi, but for both radii and both tolerances.
   const double slack = one.place_most + other.place_most;
   const Vec2 measured = other.at - one.at;
   const double radii = first.radius + second.radius;
   const HeadingArc by_discs =
       common(by_normals, headings_between(second.middle - first.middle, measured, radii + slack));
+  // The rectangle of chords is tighter than the discs only where the two strips are nearly parallel and the discs
+  // larger than the tolerances.
   const bool are_strips = first.is_single() && second.is_single() && radii > slack;
   if (by_discs.is_empty() || !are_strips || std::abs(cross(first.along, second.along)) > kAlike) return by_discs;
   return common(by_discs, headings_between(chords(first, second), measured, slack));
 }
 
+/// The larger of rho / (leaf delta) and w / (leaf eps), of those that were measured.
 double CellSearch::size(std::size_t touch, std::int32_t node) const {
   const Measured& one = touches_[touch];
   const PathTree::Node& at = tree(touch).node(node);
@@ -196,7 +223,9 @@ CellSearch::Expected CellSearch::expected(const Cell& cell, std::size_t touch) c
   const Measured& one = touches_[touch];
   Expected result;
   if (!one.has_place) return result;
+  // A vector of length d, turned by up to h from the middle heading, ends no further than 2 d sin(h / 2) from there.
   const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
+  // c_a + R(-phi)(q_i - q_1), for the middle heading; its disc and its strip are those of the cell's node.
   const auto add = [&](std::size_t from, std::int32_t base) {
     if (!touches_[from].has_place) return;
     const PathTree::Node& of = tree(from).node(base);
@@ -211,7 +240,9 @@ CellSearch::Expected CellSearch::expected(const Cell& cell, std::size_t touch) c
   return result;
 }
 
-/// By discs, and by strips.
+/// By discs, and by strips. Whether no centre of the node can be where the touch is expected. Discs: the middles are
+/// further apart than both radii and the slack. Strips: the same across either node's own line, where the discs are
+/// wider than the slack.
 bool CellSearch::are_apart(const Around& around, const PathTree::Node& node) {
   const Vec2 off = node.middle - around.middle;
   const double radii = around.radius + node.radius;
@@ -226,6 +257,7 @@ bool CellSearch::are_apart(const Around& around, const PathTree::Node& node) {
 }
 
 /// Whether a touch can be in this node.
+/// By place from each of the pair that has one, then by the normal, |tau - theta - phi| <= w + eps + h.
 bool CellSearch::may_hold(const Cell& cell, const Expected& expected, std::size_t touch, std::int32_t node) {
   ++comparisons_;
   const Measured& one = touches_[touch];
@@ -239,12 +271,15 @@ bool CellSearch::may_hold(const Cell& cell, const Expected& expected, std::size_
 }
 
 /// The nodes of a list that may hold a touch, halved down to the cell's own size, as a new list on top of the stack.
+/// False: the list is empty, which refutes the cell.
 bool CellSearch::narrow(const Cell& cell, std::size_t touch, std::pair<std::size_t, std::size_t>& list) {
+  // Nodes much finer than the cell would refute little more, as the cell's own width is in every test.
   const double coarse = std::max({1.0, size(pair_.first, cell.first), size(pair_.second, cell.second)});
   const Expected places = expected(cell, touch);
   const std::size_t top = candidates_.size();
   waiting_.assign(candidates_.begin() + static_cast<std::ptrdiff_t>(list.first),
                   candidates_.begin() + static_cast<std::ptrdiff_t>(list.second));
+  // `waiting_` holds nodes that are still to be tested, above `top` of the stack are those that passed at their size.
   while (!waiting_.empty()) {
     const std::int32_t node = waiting_.back();
     waiting_.pop_back();
@@ -263,7 +298,10 @@ bool CellSearch::narrow(const Cell& cell, std::size_t touch, std::pair<std::size
   return list.first != list.second;
 }
 
+/// One cell of the search, to its end: it is refuted, found, left undecided, or halved. The stack of candidates has the
+/// same height before and after. The heading is computed anew, from the cell's own nodes.
 void CellSearch::visit(const Cell& cell, const Lists& lists) {
+  // Undecided cells are kept, never dropped: they make the answer `incomplete`, or are searched again.
   if (comparisons_ >= budget_ || found_.fit.size() >= most_cells_) {
     found_.undecided.push_back(cell);
     return;
@@ -273,9 +311,11 @@ void CellSearch::visit(const Cell& cell, const Lists& lists) {
   Cell narrowed = cell;
   narrowed.heading = headings(cell);
   if (narrowed.heading.is_empty()) return;
+  // Needed by `expected` for each further touch, so computed once a cell.
   cosine_ = std::cos(narrowed.heading.middle);
   sine_ = std::sin(narrowed.heading.middle);
   const std::size_t top = candidates_.size();
+  // The parent's lists stay below on the stack: the sibling needs them as well.
   Lists own = lists;
   bool fits = true;
   for (std::size_t k = 0; k < others_.size() && fits; ++k) fits = narrow(narrowed, others_[k], own[k]);
@@ -283,6 +323,8 @@ void CellSearch::visit(const Cell& cell, const Lists& lists) {
   candidates_.resize(top);
 }
 
+/// Halves the node that is larger, in leaves; a cell of two leaves is found. A node is halved exactly if it is larger
+/// than a leaf, so that the cells found have nodes that do not overlap.
 void CellSearch::split(const Cell& cell, const Lists& lists) {
   const double first = size(pair_.first, cell.first);
   const double second = size(pair_.second, cell.second);
@@ -291,6 +333,7 @@ void CellSearch::split(const Cell& cell, const Lists& lists) {
   const std::pair<std::int32_t, std::int32_t> halves = std::max(first, second) <= 1
                                                            ? std::make_pair(node, node)
                                                            : tree(is_first ? pair_.first : pair_.second).halves(node);
+  // Two leaves, or a node too short to be halved in doubles.
   if (halves.first == halves.second) {
     found_.fit.push_back(cell);
     return;
@@ -302,6 +345,7 @@ void CellSearch::split(const Cell& cell, const Lists& lists) {
   }
 }
 
+// `index` has the number of each root's set, given out in order of the first members.
 std::vector<std::vector<std::size_t>> UnionFind::sets() {
   std::vector<std::vector<std::size_t>> result;
   std::vector<std::size_t> index(parent_.size(), parent_.size());
@@ -316,7 +360,10 @@ std::vector<std::vector<std::size_t>> UnionFind::sets() {
   return result;
 }
 
+/// Two levels of union and find: cells to groups, within columns, and groups to components, between columns. O(n log n)
+/// for n cells, but for pairs of neighbours that are compared.
 CellSets sets_of(const PathTree& first, const PathTree& second, std::vector<Cell> cells) {
+  // Neighbours::Neighbours relies on this order.
   std::sort(cells.begin(), cells.end(), [&](const Cell& one, const Cell& other) {
     const double a = first.node(one.first).number.lo;
     const double b = first.node(other.first).number.lo;
@@ -337,6 +384,7 @@ CellSets sets_of(const PathTree& first, const PathTree& second, std::vector<Cell
     result.links.emplace_back(group_of[i], group_of[j]);
     all.join(group_of[i], group_of[j]);
   });
+  // Many pairs of cells link the same two groups.
   std::sort(result.links.begin(), result.links.end());
   result.links.erase(std::unique(result.links.begin(), result.links.end()), result.links.end());
   result.components = all.sets();

@@ -30,6 +30,7 @@ struct TouchPair {
 TouchPair choose_pair(const std::vector<Measured>& touches);
 
 /// What a search left.
+/// Disjoint cells, but for shared ends.
 struct Cells {
   std::vector<Cell> fit;        // as small as the leaf asks for; what fits lies in them
   std::vector<Cell> undecided;  // where the budget ran out
@@ -47,6 +48,8 @@ class CellSearch {
   /// A search that keeps more cells than this has met a continuum far wider than its tolerance, and memory ends.
   static constexpr std::size_t kMostCells = 600000;
 
+  /// `touches` outlives this; each has a tree, which the search refines. `budget`: comparisons of nodes, of all
+  /// searches together. `most_cells`: cells of one search.
   CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget,
              std::size_t most_cells = kMostCells);
 
@@ -56,11 +59,13 @@ class CellSearch {
   }
   Cells search(const std::vector<Cell>& from, double leaf);
 
+  /// Cells visited and nodes tested so far.
   std::size_t comparisons() const { return comparisons_; }
 
  private:
   using Lists = std::vector<std::pair<std::size_t, std::size_t>>;  // of each other touch, in candidates_
 
+  // The steps of the search, in the order in which a cell meets them; what each does is said at its definition.
   void visit(const Cell& cell, const Lists& lists);
   HeadingArc headings(const Cell& cell) const;
   HeadingArc by_normal(std::size_t touch, std::int32_t node) const;
@@ -91,8 +96,10 @@ class CellSearch {
   std::size_t most_cells_;
   double leaf_ = kLeaf;
   std::size_t comparisons_ = 0;
+  // All touches but the pair.
   std::vector<std::size_t> others_;
   std::vector<std::int32_t> candidates_;  // a stack
+  // Of `narrow`, kept to save its memory.
   std::vector<std::int32_t> waiting_;
   // Of the cell that is visited: the vector to each other touch in the part's frame, for the middle heading.
   double cosine_ = 1;
@@ -112,11 +119,13 @@ struct CellSets {
 CellSets sets_of(const PathTree& first, const PathTree& second, std::vector<Cell> cells);
 
 /// Sets that are joined one by one.
+/// With path halving, without ranks.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) {
     for (std::size_t k = 0; k < count; ++k) parent_[k] = k;
   }
+  /// The one that stands for the set that k is in.
   std::size_t find(std::size_t k) {
     while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
     return k;
@@ -127,6 +136,7 @@ class UnionFind {
   std::vector<std::vector<std::size_t>> sets();
 
  private:
+  // Of a root itself.
   std::vector<std::size_t> parent_;
 };
 

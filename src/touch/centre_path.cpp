@@ -26,9 +26,12 @@ namespace rollfix::touch {
 namespace {
 
 // A jump of Theta that is smaller, radians, is rounding and no corner.
+// Two stretches then follow one another without a pivot between them.
 constexpr double kNoCorner = 1e-11;
 
 /// What an arc of the boundary and a spiral have in common, at most two pieces.
+/// `arc`: lo in [0, P), hi may exceed P: then a closed boundary is looked at once more, a lap back. Pieces that are
+/// points are left out.
 std::vector<Interval> within(const Interval& arc, const Interval& spiral, const Boundary& boundary) {
   std::vector<Interval> pieces;
   for (const double shift : {0.0, boundary.perimeter}) {
@@ -51,6 +54,8 @@ std::vector<Interval> on_arcs(const std::vector<Interval>& arcs, const Interval&
 }
 
 /// The tangent's angles at which a disk can touch the corner where spiral k starts.
+/// Without a finger's reach, of a point, all between both sides. Of a disk those of its pivots; at a jump that Reach
+/// does not have as a corner all or none, by whether the place is within reach.
 std::vector<Interval> angles_at(const std::optional<Reach>& reach, const Cursor& corner) {
   const double before = corner.angle_before();
   const double after = corner.angle_after();
@@ -63,6 +68,7 @@ std::vector<Interval> angles_at(const std::optional<Reach>& reach, const Cursor&
 }
 
 /// Of these angles at a corner those that a contact is confined to.
+/// `s`: of the corner. None where no arc of the contact holds the corner.
 std::vector<Interval> pivots_of(const std::vector<Interval>& angles, const Confined* confined, const Boundary& boundary,
                                 double s) {
   if (confined == nullptr) return angles;
@@ -81,6 +87,8 @@ std::vector<Interval> pivots_of(const std::vector<Interval>& angles, const Confi
 constexpr double kDiscRounding = 4e-15;
 
 /// The smallest disc around two.
+/// c and rho alone. Its diameter is rho_1 + |c_1 - c_2| + rho_2, on the line through both middles; widened by 1e-14 of
+/// itself for rounding. One disc inside the other: that one.
 void enclose(const PathTree::Node& one, const PathTree::Node& other, PathTree::Node& both) {
   const Vec2 between = other.middle - one.middle;
   const double apart = between.norm();
@@ -96,11 +104,15 @@ void enclose(const PathTree::Node& one, const PathTree::Node& other, PathTree::N
 
 }  // namespace
 
+/// May be empty: a disk that fits nowhere, or a contact that is confined to nothing.
 CentrePath::CentrePath(const Part& part, double radius, const Confined* confined) : part_(part), radius_(radius) {
   add_spirals(confined);
   connect();
 }
 
+/// Stretches in order along the boundary: before each spiral the pivots of the corner at its start, then the pieces of
+/// it that reach and `confined` leave. `diagonal_` is of a box of points, not of the exact one: the ends and the
+/// middles of spirals.
 void CentrePath::add_spirals(const Confined* confined) {
   const TurningFunction& turning = part_.turning();
   const std::vector<Spiral>& spirals = turning.spirals();
@@ -110,9 +122,12 @@ void CentrePath::add_spirals(const Confined* confined) {
   for (std::size_t k = 0; k < spirals.size(); ++k) {
     const Cursor start = Cursor::at_spiral(turning, k);
     const double jump = start.jump();
+    // A concave corner of a drawing has no pivot, as no finger rolls over it. A jump backwards that is as small as a
+    // joint's has: Theta takes every value in between there.
     const bool is_corner = jump > kNoCorner || (jump < -kNoCorner && jump > -kJointTurn);
     if (is_corner) add_corner(k, pivots_of(angles_at(reach, start), confined, part_.boundary(), spirals[k].lo));
     std::vector<Interval> pieces{{spirals[k].lo, spirals[k].hi}};
+    // What both the finger's reach and the roll's readings leave.
     if (reach) pieces = on_arcs(reach->arcs, pieces.front(), part_.boundary());
     if (confined != nullptr) {
       std::vector<Interval> kept;
@@ -127,6 +142,7 @@ void CentrePath::add_spirals(const Confined* confined) {
       stretch.u = piece;
       stretch.spiral = k;
       stretch.angle = {turning.on_spiral(spirals[k], piece.lo).angle, turning.on_spiral(spirals[k], piece.hi).angle};
+      // Theta falls where the part is concave.
       if (stretch.angle.lo > stretch.angle.hi) std::swap(stretch.angle.lo, stretch.angle.hi);
       add(stretch);
     }
@@ -138,6 +154,7 @@ void CentrePath::add_spirals(const Confined* confined) {
   diagonal_ = (most - least).norm();
 }
 
+/// At a corner u is the tangent's angle itself.
 void CentrePath::add_corner(std::size_t spiral, const std::vector<Interval>& angles) {
   for (const Interval& piece : angles) {
     CentreStretch stretch;
@@ -159,10 +176,12 @@ void CentrePath::connect() {
   const auto lo = [](const CentreStretch& one) { return one.corner ? one.s : one.u.lo; };
   const auto hi = [](const CentreStretch& one) { return one.corner ? one.s : one.u.hi; };
   // Pivots at one corner that lie apart do not follow one another.
+  // Places of the boundary are one where they differ by no more than rounding.
   const auto joined = [&](const CentreStretch& one, const CentreStretch& next) {
     const bool both = one.corner && next.corner && one.spiral == next.spiral;
     return !both && part_.boundary().distance(hi(one), lo(next)) <= rounding;
   };
+  // A stretch has the numbers from its own to the next whole one; a gap takes a number that no place has.
   double number = 0;
   for (std::size_t k = 0; k < stretches_.size(); ++k) {
     if (k > 0 && joined(stretches_[k - 1], stretches_[k])) {
@@ -177,9 +196,12 @@ void CentrePath::connect() {
   if (!part_.closed() || !joined(stretches_.back(), stretches_.front())) return;
   stretches_.back().after = 0;
   stretches_.front().before = stretches_.size() - 1;
+  // The last stretch leads on to the first: numbers go round. Of an open path, or one with a gap there, they do not.
   period_ = number;
 }
 
+/// c(u), dc/du, theta(u), dtheta/du. On a spiral dc/du = (1 + r kappa) t, which points backwards where the disk is too
+/// large for a concave stretch; at a corner r t, with t the tangent.
 CentrePoint CentrePath::at(const PathPlace& place) const {
   const CentreStretch& stretch = stretches_[place.stretch];
   const TurningFunction& turning = part_.turning();
@@ -205,11 +227,14 @@ CentrePoint CentrePath::at(const PathPlace& place) const {
   return point;
 }
 
+/// c - r n, n = (sin theta, -cos theta) outward.
 Vec2 CentrePath::contact(const PathPlace& place) const {
   const CentrePoint point = at(place);
   return point.centre - radius_ * Vec2(std::sin(point.angle), -std::cos(point.angle));
 }
 
+/// At a corner r times the angle. On a spiral the integral of |1 + r kappa| ds, or where that changes its sign the
+/// bound ds + r |dTheta|.
 double CentrePath::length(const CentreStretch& stretch, const Interval& u) const {
   if (stretch.corner) return radius_ * u.width();
   const TurningFunction& turning = part_.turning();
@@ -222,8 +247,13 @@ double CentrePath::length(const CentreStretch& stretch, const Interval& u) const
   return is_forwards ? u.width() + turn : u.width() + std::abs(turn);
 }
 
+/// Of the whole path down to single stretches: one node for each, joined two by two. Halves of stretches come later,
+/// when the search asks.
 PathTree::PathTree(const CentrePath& path) : path_(path) { root_ = join(0, path.stretches().size()); }
 
+/// A node of part of one stretch. The disc is about the centre at its middle u; no centre is further than the longer
+/// way to an end. `flat`: going from the middle no step leaves the line's direction by more than the half turn, so
+/// aside is at most radius times its sine.
 std::int32_t PathTree::add_single(std::int32_t stretch, const Interval& u, const Interval& number) {
   const CentreStretch& whole = path_.stretches()[static_cast<std::size_t>(stretch)];
   const auto angle_at = [&](double place) {
@@ -248,6 +278,8 @@ std::int32_t PathTree::add_single(std::int32_t stretch, const Interval& u, const
   return static_cast<std::int32_t>(nodes_.size()) - 1;
 }
 
+/// A node of the stretches from `from` up to `to`, balanced by their number. Angles are unwrapped along the boundary,
+/// so that the interval around both children's is one.
 std::int32_t PathTree::join(std::size_t from, std::size_t to) {
   if (to - from == 1) {
     const CentreStretch& stretch = path_.stretches()[from];
@@ -270,11 +302,13 @@ std::int32_t PathTree::join(std::size_t from, std::size_t to) {
   return static_cast<std::int32_t>(nodes_.size()) - 1;
 }
 
+/// New nodes only where none were asked for before: `left` is set then. `nodes_` may move, so `whole` is a copy.
 std::pair<std::int32_t, std::int32_t> PathTree::halves(std::int32_t index) {
   const Node whole = node(index);
   if (whole.left >= 0) return {whole.left, whole.right};
   const double middle = whole.u.middle();
   const double number = whole.number.middle();
+  // Nothing lies between its ends in doubles, neither in u nor in its numbers.
   const bool is_point =
       !(middle > whole.u.lo && middle < whole.u.hi) || !(number > whole.number.lo && number < whole.number.hi);
   if (is_point) return {index, index};

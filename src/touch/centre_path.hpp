@@ -33,6 +33,7 @@ struct CentreStretch {
   std::optional<std::size_t> after{};
 };
 
+/// A place of the path: which stretch, and u on it, within the stretch's `u`.
 struct PathPlace {
   std::size_t stretch = 0;
   double u = 0;
@@ -51,9 +52,11 @@ class CentrePath {
   /// `confined`: nullptr: to nothing. Throws InputError as reach_of_disk does.
   CentrePath(const Part& part, double radius, const Confined* confined = nullptr);
 
+  /// Outlives the path.
   const Part& part() const { return part_; }
   double radius() const { return radius_; }
   const std::vector<CentreStretch>& stretches() const { return stretches_; }
+  /// REQUIRES a place of this path.
   CentrePoint at(const PathPlace& place) const;
   Vec2 contact(const PathPlace& place) const;  // the point of the boundary
   /// The numbers of places go round with this period; 0: not at all.
@@ -63,6 +66,7 @@ class CentrePath {
   double length(const CentreStretch& stretch, const Interval& u) const;
 
  private:
+  // The steps of the constructor, in order.
   void add_spirals(const Confined* confined);
   void add_corner(std::size_t spiral, const std::vector<Interval>& angles);
   void add(CentreStretch stretch);
@@ -70,6 +74,7 @@ class CentrePath {
 
   const Part& part_;
   double radius_;
+  // In order along the boundary; empty: the finger fits nowhere.
   std::vector<CentreStretch> stretches_;
   double period_ = 0;
   double diagonal_ = 0;
@@ -106,10 +111,12 @@ class PathTree {
   std::pair<std::int32_t, std::int32_t> halves(std::int32_t index);
 
  private:
+  // Each appends a node, `join` also those below it, and returns its index.
   std::int32_t add_single(std::int32_t stretch, const Interval& u, const Interval& number);
   std::int32_t join(std::size_t from, std::size_t to);
 
   const CentrePath& path_;
+  // Grows with `halves`; indices stay, references do not.
   std::vector<Node> nodes_;
   std::int32_t root_ = -1;
 };

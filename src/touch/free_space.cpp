@@ -58,6 +58,8 @@ constexpr double kSurelyFree = 6;
 // than this share of what these poses differ by: what is missed is seen in halves of them.
 constexpr double kStepOfSpread = 0.25;
 
+/// Length: the largest tolerance of a place; with noise kTouchSigmas of the largest sd of a touch's place, or of the
+/// common one.
 double slack_of(const TouchProblem& problem, const std::vector<Measured>& contacts) {
   double most = 0;
   for (const Measured& contact : contacts) {
@@ -70,6 +72,7 @@ double slack_of(const TouchProblem& problem, const std::vector<Measured>& contac
 }
 
 /// Where the finger's centre was as it met the part, or left it.
+/// Of each touch its place, of each roll with centres its first and its last row.
 std::vector<Vec2> ends_of_contacts(const TouchProblem& problem) {
   std::vector<Vec2> ends;
   for (const MeasuredTouch& touch : problem.touches) ends.push_back(touch.at);
@@ -83,6 +86,7 @@ std::vector<Vec2> ends_of_contacts(const TouchProblem& problem) {
 }
 
 /// Without its last bit before a contact.
+/// kBeforeContact of the slack is cut off at an end that is within the slack of a contact, at most half of the path.
 Clear before_contacts(const Clear& path, const std::vector<Vec2>& contacts, double slack) {
   const Vec2 along = path.to - path.from;
   const double length = along.norm();
@@ -97,10 +101,13 @@ Clear before_contacts(const Clear& path, const std::vector<Vec2>& contacts, doub
 }
 
 /// Log of the probability that a standard normal number is below x.
+/// No less than log(1e-300).
 double log_normal(double x) { return std::log(std::max(0.5 * std::erfc(-x / std::sqrt(2.0)), 1e-300)); }
 
 /// Goes along a path: `look` has a place of it, and says how far ahead nothing has to be looked at; below 0: it has
 /// seen enough.
+/// True: `look` has seen enough. Steps are no shorter than `least_step`; the path's end is always looked at. A path of
+/// no length is one place.
 template <class Look>
 bool walk(const Clear& path, double least_step, const Look& look) {
   const double length = (path.to - path.from).norm();
@@ -113,6 +120,8 @@ bool walk(const Clear& path, double least_step, const Look& look) {
   }
 }
 
+/// The first contact is at its disc's middle, within radius and tolerance; other places of the world swing about it by
+/// 2 sin(h / 2) of their distance.
 CellView view_of(const Cell& cell, const PathTree& tree, const Measured& first) {
   const PathTree::Node& node = tree.node(cell.first);
   const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
@@ -132,6 +141,7 @@ double apart(const CellView& middle, const CellView& cell, const Vec2& place) {
 
 }  // namespace
 
+/// Without paths nothing is computed: `is_empty`.
 FreeSpace::FreeSpace(const TouchProblem& problem, const std::vector<Measured>& contacts)
     : part_(problem.part), radius_(radius_of(problem)) {
   if (problem.clear.empty()) return;
@@ -144,6 +154,7 @@ FreeSpace::FreeSpace(const TouchProblem& problem, const std::vector<Measured>& c
   for (const Clear& path : problem.clear) paths_.push_back(before_contacts(path, ends, slack));
 }
 
+/// Sphere tracing with the exact distance.
 bool FreeSpace::is_blocked(const Pose& pose) {
   const Pose back{0, 0, -pose.heading};
   return std::any_of(paths_.begin(), paths_.end(), [&](const Clear& path) {
@@ -153,6 +164,7 @@ bool FreeSpace::is_blocked(const Pose& pose) {
   });
 }
 
+/// A path is blocked in all poses where d < r - delta - moved(p) at some place p: d is 1-Lipschitz.
 bool FreeSpace::blocks_all(const Cell& cell, const PathTree& tree, const Measured& first) {
   if (cell.heading.half > kWideHeading) return false;
   const CellView view = view_of(cell, tree, first);
@@ -161,11 +173,14 @@ bool FreeSpace::blocks_all(const Cell& cell, const PathTree& tree, const Measure
       const Vec2 in_part = view.in_part(place);
       const double bound = bound_ - view.moved(place);
       const double free = part_.at_least(in_part) - bound;
+      // The quick lower bound is enough to go on by; only near the part the exact distance is computed.
       return free > least_step_ ? free : part_.nearest(in_part).distance - bound;
     });
   });
 }
 
+/// One walk along each path by the middle view. `spread`: how far any pose of any view may have a place from there.
+/// Free: d >= bound + spread at all places looked at. Blocked: d < bound - spread at one. Else unknown.
 FreeSpace::Way FreeSpace::way_of(std::span<const CellView> views) {
   const CellView& middle = views[views.size() / 2];
   Way way = Way::free;
@@ -177,6 +192,7 @@ FreeSpace::Way FreeSpace::way_of(std::span<const CellView> views) {
     const auto look = [&](const Interval& distance) {
       if (distance.hi < bound_ + spread) way = Way::unknown;
       if (distance.hi < bound_ - spread) return -1.0;
+      // Step as far as all poses are free; once that is lost, as far as no place is blocked in all.
       if (way == Way::free) return distance.lo - bound_ - spread;
       return std::max(distance.lo - bound_ + spread, kStepOfSpread * spread);
     };
@@ -195,6 +211,7 @@ FreeSpace::Way FreeSpace::way_of(std::span<const CellView> views) {
 
 /// Cells that are neighbours have poses that hardly differ: those from `begin` to `end` together where one look is
 /// enough, else in halves.
+/// A single cell by its own, tighter test.
 void FreeSpace::add_unblocked(const Sieve& sieve, std::size_t begin, std::size_t end, std::vector<Cell>& to) {
   if (end - begin == 1) {
     if (!blocks_all(sieve.cells[begin], sieve.tree, sieve.first)) to.push_back(sieve.cells[begin]);
@@ -212,6 +229,7 @@ void FreeSpace::add_unblocked(const Sieve& sieve, std::size_t begin, std::size_t
   add_unblocked(sieve, middle, end, to);
 }
 
+/// `first`: the contact that the cells' first nodes are of. Keeps the cells' order.
 void FreeSpace::drop_blocked(std::vector<Cell>& cells, const PathTree& tree, const Measured& first) {
   if (is_empty() || cells.empty()) return;
   Sieve sieve{cells, {}, tree, first};
@@ -243,13 +261,16 @@ double FreeSpace::log_free(const PosteriorNode& node) {
     });
     const Vec2 away = node.pose.turned(closest.away);
     const Vec2 arm = node.pose.turned(closest.contact);
+    // d(distance)/d(x, y, phi): the part's nearest point moves with the pose.
     const Eigen::Vector3d by_pose(-away.x(), -away.y(), -(away.y() * arm.x() - away.x() * arm.y()));
     const double variance = sd_ * sd_ + by_pose.dot(node.covariance * by_pose);
+    // P(d > r), d normal with the variance of the path and of the pose.
     sum += log_normal((least - radius_) / std::sqrt(variance));
   }
   return sum;
 }
 
+/// `square` grows as a residual's would, so that the best pose is one that leaves the paths free.
 void FreeSpace::weigh(std::vector<PosteriorNode>& nodes) {
   if (is_empty()) return;
   for (PosteriorNode& node : nodes) {

@@ -34,6 +34,7 @@ constexpr double kLeastFree = 1e-6;
 /// Moves poses of a set to where they fit the touches that count: those along a continuum lie on a curve.
 class Refit {
  public:
+  /// `answer`: not mirrored, as poses are fitted as the part is stored. `set`: its outliers do not count.
   Refit(const TouchAnswer& answer, const TouchPose& set)
       : touches_(measured_of(answer, set)), path_(answer.part, answer.radius), tree_(path_), fit_(touches_, {}) {
     for (Measured& touch : touches_) touch.tree = &tree_;
@@ -41,9 +42,11 @@ class Refit {
   Refit(const Refit&) = delete;
   Refit& operator=(const Refit&) = delete;
 
+  /// The best pose nearby.
   Pose operator()(const Pose& pose) { return fit_.fit(pose).pose; }
 
  private:
+  /// Tolerances of the answer are kTouchSigmas standard deviations, as noise was stated.
   static std::vector<Measured> measured_of(const TouchAnswer& answer, const TouchPose& set) {
     std::vector<Measured> touches;
     for (std::size_t k = 0; k < answer.touches.size(); ++k) {
@@ -69,6 +72,7 @@ class Refit {
 };
 
 /// A pose that fits near one of a line: the line's own where least squares led back along it, to the best of all.
+/// `along`: one standard deviation of the continuum.
 Pose beside(const Pose& of_line, const Pose& fitted, const Eigen::Vector3d& along) {
   const Eigen::Vector3d off(fitted.x - of_line.x, fitted.y - of_line.y,
                             nearest_angle(fitted.heading - of_line.heading));
@@ -76,6 +80,8 @@ Pose beside(const Pose& of_line, const Pose& fitted, const Eigen::Vector3d& alon
   return std::abs(back) <= kLedBack ? fitted : of_line;
 }
 
+/// Without noise, or of a pose that is held: the answer's pose. Of a continuum with noise: kAlong standard deviations
+/// along its longest direction, each with an equal share of the weight, led back to where the touches fit.
 std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
   std::vector<LikelyPose> poses;
   for (std::size_t k = 0; k < answer.poses.size(); ++k) {
@@ -86,9 +92,11 @@ std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
       continue;
     }
     std::optional<Refit> refit;
+    // Of a part face down the straight line has to do.
     if (!answer.mirrored) refit.emplace(answer, set);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(set.spread.covariance);
     const Eigen::Vector3d along = solver.eigenvectors().col(2) * std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
+    // What is left of the covariance across that direction.
     const Eigen::Matrix3d across = set.spread.covariance - along * along.transpose();
     for (const double share : kAlong) {
       const Pose& mean = set.spread.mean;
@@ -104,11 +112,13 @@ std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
 }
 
 /// Places all along the path, each with as much of its length.
+/// `apart`: gets the length of the path of centres between two of them.
 std::vector<PathPlace> even_places(const CentrePath& path, std::size_t count, double& apart) {
   double total = 0;
   for (const CentreStretch& stretch : path.stretches()) total += path.length(stretch, stretch.u);
   apart = total / static_cast<double>(count);
   std::vector<PathPlace> places;
+  // Of the path, up to stretch k.
   double before = 0;
   for (std::size_t k = 0; k < path.stretches().size(); ++k) {
     const CentreStretch& stretch = path.stretches()[k];
@@ -139,8 +149,10 @@ class AfterOneTouch {
   }
 
  private:
+  /// -1 of a part face down: x of the outline changes its sign.
   double side() const { return answer_.mirrored ? -1 : 1; }
 
+  /// phi = n - nu(u), X = q - R o(u).
   LikelyPose pose_at(const PathPlace& place) const {
     const MeasuredTouch& touch = answer_.touches.front();
     const CentrePoint point = path_.at(place);
@@ -162,6 +174,7 @@ class AfterOneTouch {
       const Vec2 by = -along * du - turned_left(centre) * turn;
       return Eigen::Vector3d(by.x(), by.y(), turn);
     };
+    // Uniform between two places: sd = distance / sqrt(12), in u.
     const double du = along.norm() > 0 ? apart_ / std::sqrt(12) / along.norm() : 0;
     const Eigen::Vector3d by_place = moved(du, -bend * du);
     const Eigen::Vector3d by_turn = moved(0, turn_sd_);
@@ -178,6 +191,7 @@ class AfterOneTouch {
 };
 
 /// The question that was answered.
+/// As far as free space needs it: without rolls and prior.
 TouchProblem problem_of(const TouchAnswer& answer) {
   TouchProblem problem{answer.part, answer.touches};
   if (answer.radius > 0) problem.finger = disk(answer.radius);
@@ -188,6 +202,7 @@ TouchProblem problem_of(const TouchAnswer& answer) {
 }
 
 /// As it is, or as a mirror shows it.
+/// x and the heading change their signs, and with them their covariances.
 PosteriorNode node_of(const LikelyPose& one, bool mirrored) {
   PosteriorNode node;
   node.pose = one.pose;
@@ -200,6 +215,7 @@ PosteriorNode node_of(const LikelyPose& one, bool mirrored) {
 }
 
 /// What clear paths leave of poses that only touches were asked about.
+/// If nothing is left, the paths contradict the touch: then all stay.
 std::vector<LikelyPose> left_free(std::vector<LikelyPose> poses, const TouchAnswer& answer) {
   if (answer.clear.empty()) return poses;
   const TouchProblem problem = answer.mirrored ? in_mirror(problem_of(answer)) : problem_of(answer);
@@ -207,6 +223,7 @@ std::vector<LikelyPose> left_free(std::vector<LikelyPose> poses, const TouchAnsw
   std::vector<LikelyPose> left;
   for (LikelyPose& one : poses) {
     std::vector<PosteriorNode> node{node_of(one, answer.mirrored)};
+    // By the probability that all paths are free; without noise free or not.
     if (answer.noise) {
       space.weigh(node);
       one.weight *= std::exp(node.front().log_weight);
@@ -220,6 +237,7 @@ std::vector<LikelyPose> left_free(std::vector<LikelyPose> poses, const TouchAnsw
 
 }  // namespace
 
+/// Weights are made to add up to 1.
 std::vector<LikelyPose> likely_poses(const TouchAnswer& answer) {
   std::vector<LikelyPose> poses = answer.touches.size() == 1 && answer.poses.empty()
                                       ? left_free(AfterOneTouch(answer).poses(), answer)

@@ -31,9 +31,11 @@ struct Measured {
 };
 
 /// The touches as the search takes them. REQUIRES noise or a tolerance.
+/// In the problem's order, without trees.
 std::vector<Measured> measured(const TouchProblem& problem);
 
 /// Whether such a centre only says where the part is: it is nowhere off.
+/// A first roll's centre where no contact's place is evidence, see RollCentre.
 bool is_reference(const Measured& contact);
 
 }  // namespace rollfix::touch

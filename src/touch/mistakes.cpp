@@ -68,11 +68,13 @@ constexpr double kLeastSpread = 0.05;
 // Noise is looked at up to this many times the stated one, doubled each time: beyond, touches tell nothing.
 constexpr double kMostNoise = 32;
 
+/// A cause, with what it would be, and the problem in which it is undone.
 struct Mistake {
   TouchDiagnosis what;
   TouchProblem without;
 };
 
+/// Lists all mistakes that a problem of touches can have, without solving any.
 class Mistakes {
  public:
   explicit Mistakes(const TouchProblem& problem) : problem_(problem), may_have_outliers_(problem.robust) {
@@ -96,6 +98,7 @@ class Mistakes {
  private:
   void add(TouchDiagnosis what, const TouchProblem& without) { mistakes_.push_back({std::move(what), without}); }
 
+  /// What is known of the pose beforehand is wrong.
   void add_prior() {
     if (!problem_.pose) return;
     TouchProblem without = problem_;
@@ -103,6 +106,7 @@ class Mistakes {
     add({TouchCause::pose}, without);
   }
 
+  /// Some path was not clear: none of them counts.
   void add_clear() {
     if (problem_.clear.empty()) return;
     TouchProblem without = problem_;
@@ -118,13 +122,16 @@ class Mistakes {
     TouchProblem swapped = problem_;
     for (MeasuredTouch& touch : swapped.touches) std::swap(touch.at.x(), touch.at.y());
     for (Clear& path : swapped.clear) path = {{path.from.y(), path.from.x()}, {path.to.y(), path.to.x()}};
+    // Swapped coordinates are a mirror image, turned: only normals, which are not swapped, tell the two apart.
     if (any_normal_) add({TouchCause::swapped}, swapped);  // else it can't be told from the mirror image
     if (problem_.part.closed()) return;
+    // An open outline is touched on its right side: reversed, the other one is right.
     TouchProblem behind = problem_;
     behind.part = Part(reversed(problem_.part.outline()));
     add({TouchCause::other_side}, behind);
   }
 
+  /// Turned by pi, or with the other sign.
   void add_normals() {
     if (!any_normal_) return;
     const auto with = [&](TouchCause cause, auto changed) {
@@ -152,7 +159,9 @@ class Mistakes {
     }
   }
 
+  /// The touches' coordinates times each factor; radius and noise stay, as they are in the part's unit.
   void add_units() {
+    // The largest distance from the first touch.
     double spread = 0;
     for (const MeasuredTouch& touch : problem_.touches) {
       spread = std::max(spread, (touch.at - problem_.touches.front().at).norm());
@@ -190,6 +199,7 @@ class Mistakes {
 };
 
 /// Whether the touches of an explanation could have contradicted it. Without noise: more equations than unknowns.
+/// nu = residuals - unknowns: a touch adds 1, with a normal 2, the pose takes 3.
 bool is_telling(const TouchProblem& problem) {
   int freedom = -3;
   for (const MeasuredTouch& touch : problem.touches) freedom += touch.normal ? 2 : 1;
@@ -197,6 +207,7 @@ bool is_telling(const TouchProblem& problem) {
 }
 
 /// The same touches with this many times the noise. What is known of the pose beforehand stays.
+/// Angles no noisier than what a problem may state.
 TouchProblem noisier(const TouchProblem& problem, double factor) {
   TouchProblem result = problem;
   for (double* sd : {&result.noise->position, &result.noise->angle}) *sd *= factor;
@@ -209,16 +220,21 @@ TouchProblem noisier(const TouchProblem& problem, double factor) {
 }
 
 /// How much larger the noise has to be.
+/// The last explanation, if any: by the least factor 2^k with which p >= kExplains, refined by chi^2 / nu to what would
+/// make the fit as good as expected.
 void add_noise_factor(const TouchProblem& problem, std::vector<TouchDiagnosis>& told) {
   if (!problem.noise || !is_telling(problem)) return;
   for (double factor = 2; factor <= kMostNoise; factor *= 2) {
     const TouchProblem without = noisier(problem, factor);
     const TouchAnswer found = solve_plain(without);
     if (found.status != Status::complete || !found.fit || found.fit->freedom == 0) continue;
+    // Still too little noise.
     if (found.fit->p < kExplains) continue;
     TouchDiagnosis what{TouchCause::noise};
+    // chi^2 / nu of noise that is `factor` times as large is 1 with sqrt(chi^2 / nu) times that.
     what.factor = factor * std::sqrt(found.fit->chi_square / found.fit->freedom);
     if (what.factor < kLeastMoreNoise) return;  // one touch is further off than the search looks
+    // The fit is that with the doubled factor, not with the refined one.
     what.fit = *found.fit;
     what.poses = found.poses.size();
     what.pose = found.poses.front().pose;
@@ -228,9 +244,11 @@ void add_noise_factor(const TouchProblem& problem, std::vector<TouchDiagnosis>& 
 }
 
 /// Of so many touches every so many-th: a mistake that all have shows in them as well.
+/// Outliers get their own numbers back.
 std::vector<TouchDiagnosis> mistakes_of_some(const TouchProblem& problem) {
   TouchProblem some = problem;
   some.touches.clear();
+  // Of the touches that are kept, in the problem.
   std::vector<std::size_t> numbers;
   for (std::size_t k = 0; k < kMostTried; ++k) {
     numbers.push_back(k * problem.touches.size() / kMostTried);
@@ -245,13 +263,17 @@ std::vector<TouchDiagnosis> mistakes_of_some(const TouchProblem& problem) {
 
 }  // namespace
 
+/// Each candidate is solved; it is told if the search ended, a pose is left, and chi^2 is not improbable. At most
+/// kMostTold are told, the noise's factor last.
 std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem) {
   if (problem.touches.size() > kMostTried) return mistakes_of_some(problem);
   TouchProblem cheaper = problem;
   cheaper.budget = std::min(problem.budget.value_or(kNoiseBudget), kNoiseBudget);
+  // All touches count, as in the mistakes.
   cheaper.robust = false;
   std::vector<TouchDiagnosis> told;
   for (const Mistake& mistake : Mistakes(problem).all()) {
+    // Paths and priors contradict touches that alone have no check.
     const bool is_of_more = mistake.what.cause == TouchCause::clear || mistake.what.cause == TouchCause::pose;
     if (!is_of_more && !is_telling(mistake.without)) continue;  // what is left contradicts nothing
     const TouchAnswer found = solve_plain(mistake.without);
@@ -278,6 +300,7 @@ std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem) {
   }
   std::stable_sort(told.begin(), told.end(),
                    [](const TouchDiagnosis& a, const TouchDiagnosis& b) { return a.fit.p > b.fit.p; });
+  // Leaves room for the noise.
   if (told.size() >= kMostTold) told.resize(kMostTold - 1);
   add_noise_factor(cheaper, told);
   return told;
@@ -304,11 +327,13 @@ TouchProblem some_rolls(const TouchProblem& problem, std::size_t begin, std::siz
   return result;
 }
 
+/// Poses are left, all of them were found, and they do not contradict the noise.
 bool fits(const TouchAnswer& answer) {
   return answer.status == Status::complete && !answer.poses.empty() && !answer.verdict.fits_badly;
 }
 
 /// What the rolls share a pose without: what was said of the pose beforehand, the free paths, or one of the touches.
+/// REQUIRES that the rolls alone fit together.
 std::vector<TouchDiagnosis> not_of_rolls(const TouchProblem& problem) {
   std::vector<TouchDiagnosis> told;
   const auto add = [&](TouchDiagnosis what, TouchProblem without) {
@@ -342,17 +367,20 @@ std::vector<TouchDiagnosis> not_of_rolls(const TouchProblem& problem) {
 
 }  // namespace
 
+/// Empty where some roll by itself is inconsistent: then it is no question of the part's move.
 std::vector<TouchDiagnosis> moved(const TouchProblem& problem, const TouchAnswer& answer) {
   std::vector<TouchDiagnosis> told;
   const auto fits_alone = [](const RollFacts& roll) {
     return roll.alone.name != Verdict::inconsistent && !roll.alone.fits_badly;
   };
   if (!std::all_of(answer.rolls.begin(), answer.rolls.end(), fits_alone)) return told;
+  // If the rolls alone fit, the fault lies in what else was given.
   if (problem.pose || !problem.touches.empty() || !problem.clear.empty()) {
     TouchProblem rolls_alone = some_rolls(problem, 0, problem.rolls.size());
     rolls_alone.pose.reset();
     if (fits(solve_plain(rolls_alone))) return not_of_rolls(problem);
   }
+  // Each cut into rolls 1..k and k + 1..n, both of which must fit.
   for (std::size_t k = 1; k < problem.rolls.size(); ++k) {
     if (!fits(solve_plain(some_rolls(problem, 0, k)))) continue;
     const TouchAnswer after = solve_plain(some_rolls(problem, k, problem.rolls.size()));

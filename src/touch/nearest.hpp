@@ -11,6 +11,7 @@
 namespace rollfix::touch {
 
 /// A touch as the part's frame sees it, in some pose.
+/// The same members as Measured has: place in the part's unit, angles in radians.
 struct InPart {
   Vec2 at = Vec2::Zero();
   bool has_place = true;
@@ -29,6 +30,7 @@ struct Distance {
 Distance distance_at(const CentrePoint& point, const InPart& touch);
 
 /// No place of a node has a smaller sum of squares.
+/// In units of the touch, squared.
 double least_square(const PathTree::Node& node, const InPart& touch);
 
 /// A place of the path, and what is there.
@@ -38,6 +40,7 @@ struct OnPath {
 };
 
 /// The nearest place to be found by going downhill from this one, from stretch to stretch.
+/// A local minimum of Distance::square.
 OnPath downhill(const CentrePath& path, const InPart& touch, OnPath from);
 
 /// The nearest of all places. Branch and bound.

@@ -51,6 +51,8 @@ struct RadiusStep {
 };
 
 /// Nothing where the touches do not say it.
+/// Normal equations of (dx, dy, dphi, dr). A touch's residual along the normal grows by n . (move of the pose) + dr;
+/// its place on the boundary, which moves along the tangent, is eliminated by taking the normal part alone.
 std::optional<RadiusStep> radius_step(const PoseFit& fit, const FittedPose& fitted) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
   Eigen::Vector4d slope = Eigen::Vector4d::Zero();
@@ -61,20 +63,24 @@ std::optional<RadiusStep> radius_step(const PoseFit& fit, const FittedPose& fitt
   for (std::size_t k = 0; k < fitted.places.size(); ++k) {
     const Measured& touch = fit.touches()[k];
     const CentrePoint at = fit.path(k).at(fitted.places[k]);
+    // The outward normal of the part at the contact, in the world.
     const double tangent = at.angle + fitted.pose.heading;
     const Vec2 normal(std::sin(tangent), -std::cos(tangent));
     const Vec2 centre = fitted.pose.world(at.centre);
     const Vec2 arm = centre - fit.about();
+    // dphi moves the centre by left(arm): its part along n is the third number.
     add(Eigen::Vector4d(normal.x(), normal.y(), normal.y() * arm.x() - normal.x() * arm.y(), 1) / touch.place_unit,
         (touch.at - centre).dot(normal) / touch.place_unit);
     if (!touch.tangent) continue;
     add({0, 0, 1 / touch.angle_unit, 0}, nearest_angle(*touch.tangent - tangent) / touch.angle_unit);
   }
   const Eigen::LDLT<Eigen::Matrix4d> solver(matrix);
+  // A singular matrix: radius and pose can't be told apart, as with too few touches.
   if (!(solver.info() == Eigen::Success && solver.vectorD().minCoeff() > 1e-9 * solver.vectorD().maxCoeff())) {
     return std::nullopt;
   }
   const Eigen::Vector4d step = solver.solve(slope);
+  // By the linear model the squares fall by step . slope.
   return RadiusStep{step(3), fitted.square - step.dot(slope)};
 }
 
@@ -85,6 +91,7 @@ struct Start {
 };
 
 /// Poses that fit about, with a finger whose radius may be off by so much; the most promising first.
+/// `off`: the tolerance of places is widened by it, so that the cells of any radius that near are kept.
 std::vector<Start> starts_of(const TouchProblem& problem, double radius, double off) {
   const CentrePath path(problem.part, radius);
   if (path.stretches().empty()) return {};
@@ -100,12 +107,14 @@ std::vector<Start> starts_of(const TouchProblem& problem, double radius, double 
   std::vector<Start> starts;
   const std::size_t count = std::min(kStarts, cells.size());
   for (std::size_t k = 0; k < count; ++k) {
+    // Spread evenly over the cells.
     const Cell& cell = cells[(2 * k + 1) * cells.size() / (2 * count)];
     const PathTree::Node& node = tree.node(cell.first);
     const Held held{pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
     const FittedPose fitted = fit.fit(fit.pose_at(held, cell.heading.middle));
     if (const auto next = radius_step(fit, fitted)) starts.push_back({fitted.pose, *next});
   }
+  // By what the next step promises, not by the squares now.
   std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.next.square < b.next.square; });
   if (starts.size() > kFollowed) starts.resize(kFollowed);
   return starts;
@@ -118,6 +127,8 @@ struct FittedRadius {
 };
 
 /// The radius that fits best, from a pose. Nothing where it goes off.
+/// kSteps Gauss-Newton steps; each radius has its own path of centres. None: the radius leaves twice its reach, is not
+/// above 0, fits nowhere, or the touches stop telling it. `square` is that of the last fit.
 std::optional<FittedRadius> follow(const TouchProblem& problem, double radius, double reach, const Start& start) {
   std::vector<Measured> touches = measured(problem);
   const double from = radius;
@@ -126,6 +137,7 @@ std::optional<FittedRadius> follow(const TouchProblem& problem, double radius, d
   double square = start.next.square;
   for (int k = 0; k < kSteps; ++k) {
     radius += step;
+    // It has left the radii that this start serves for.
     if (!(radius > 0 && std::abs(radius - from) <= 2 * reach)) return std::nullopt;
     const CentrePath path(problem.part, radius);
     if (path.stretches().empty()) return std::nullopt;
@@ -143,6 +155,7 @@ std::optional<FittedRadius> follow(const TouchProblem& problem, double radius, d
 }
 
 /// The radius near this one that fits best.
+/// `reach`: of the radii that this start serves for, length.
 std::optional<FittedRadius> fitted_radius(const TouchProblem& given, double radius, double reach) {
   const TouchProblem problem = given.mirrored ? in_mirror(given) : given;
   std::optional<FittedRadius> best;
@@ -154,6 +167,7 @@ std::optional<FittedRadius> fitted_radius(const TouchProblem& given, double radi
 }
 
 /// One degree of freedom less, for the radius.
+/// None where no check is left, or p < kExplains.
 std::optional<TouchFit> fit_with(const TouchAnswer& answer) {
   if (answer.status != Status::complete || answer.poses.empty() || !answer.fit) return std::nullopt;
   TouchFit fit = *answer.fit;
@@ -165,18 +179,22 @@ std::optional<TouchFit> fit_with(const TouchAnswer& answer) {
 
 }  // namespace
 
+/// Two touches or more. Without a stated finger it may have been forgotten: radii are shares of the perimeter then.
 std::vector<TouchDiagnosis> other_radii(const TouchProblem& problem) {
   std::vector<TouchDiagnosis> told;
   if (problem.touches.size() < 2) return told;
   const double stated = problem.finger ? problem.finger->disk()->radius : 0;
+  // One start: the radius that fits best near it, if it is none that is known, solved as a problem of its own.
   const auto look = [&](double start, double reach) {
     const std::optional<FittedRadius> fitted = fitted_radius(problem, start, reach);
     if (!fitted) return;
     const double radius = fitted->radius;
     if (std::abs(radius - stated) < kSameRadius * problem.noise->position) return;
+    // Two starts may lead to one radius.
     for (const TouchDiagnosis& known : told) {
       if (std::abs(known.radius - radius) < kSameRadius * problem.noise->position) return;
     }
+    // The fit was local: the whole search tells whether touches with this radius fit at all.
     const TouchAnswer found = solve_plain(with_radius(problem, radius));
     const std::optional<TouchFit> fit = fit_with(found);
     if (!fit) return;

@@ -42,11 +42,16 @@ using SolveWithout = std::function<TouchAnswer(const Outliers&)>;
 // A touch that counts is in doubt beyond so many standard deviations: nearer it is an outlier once in a thousand times.
 constexpr double kInDoubt = 2.5;
 
+/// Sets of outliers found from poses, instead of trying all sets.
 class Candidates {
  public:
+  /// `of_touches`: without its rolls, so that a touch's number is its contact's. `most`: outliers at most.
+  /// `solve_without` counts the rolls as well.
   Candidates(const TouchProblem& of_touches, double radius, std::size_t most, const SolveWithout& solve_without)
       : contacts_(of_touches, radius), fit_(contacts_.each, {}), most_(most), solve_without_(solve_without) {}
 
+  /// Touch k is in group k mod (most + 1). With at most `most` outliers one group at least is without, and its pose is
+  /// followed from there.
   std::set<Outliers> find() {
     const std::size_t groups = most_ + 1;
     for (std::size_t group = 0; group < groups; ++group) {
@@ -65,6 +70,7 @@ class Candidates {
   void follow(const TouchPose& from) {
     TouchPose pose = from;
     std::size_t count = std::min(beyond(pose, kTouchSigmas).size(), most_);
+    // `pose` is by the touches outside of the last set tried. `tried_` ends loops: no set is followed twice.
     for (;;) {
       Outliers outliers = beyond(pose, 0);
       outliers.resize(std::min(outliers.size(), count));
@@ -77,8 +83,10 @@ class Candidates {
       }
       pose = std::move(answer.poses.front());
       Outliers next = beyond(pose, kTouchSigmas);
+      // More outliers than there is any chance of.
       if (next.size() > most_) return;
       std::sort(next.begin(), next.end());
+      // Each touch that does not fit the pose is among the outliers: the set explains itself.
       const bool all_are_out = std::includes(outliers.begin(), outliers.end(), next.begin(), next.end());
       if (all_are_out) add(outliers, beyond(pose, kInDoubt));
       count = next.size();
@@ -86,6 +94,7 @@ class Candidates {
   }
 
   /// Touches that are further off than so many standard deviations, their own and the pose's; the furthest first.
+  /// Each touch's residuals from its nearest place, squared, by the touch's own variance and that of the pose there.
   Outliers beyond(const TouchPose& pose, double sigmas) const {
     std::vector<std::pair<double, std::size_t>> outliers;
     const Eigen::Matrix3d& covariance = pose.spread.covariance;
@@ -93,6 +102,7 @@ class Candidates {
       const Measured& touch = contacts_.each[k];
       const Pose& mean = pose.spread.mean;
       const TouchContact contact = nearest_contact(fit_, mean, k);
+      // d(touch) / d(x, y, phi) of what moves with the part.
       Eigen::Matrix<double, 2, 3> moved;
       moved << Eigen::Matrix2d::Identity(), turned_left(touch.at - Vec2(mean.x, mean.y));
       const double place =
@@ -108,6 +118,7 @@ class Candidates {
     return numbers;
   }
 
+  /// The set itself, and each one that has one touch more that is in doubt, or one outlier less.
   void add(const Outliers& outliers, const Outliers& in_doubt) {
     found_.insert(outliers);
     std::set<std::size_t> others(in_doubt.begin(), in_doubt.end());
@@ -124,6 +135,7 @@ class Candidates {
     }
   }
 
+  // Of all touches.
   AllContacts contacts_;
   PoseFit fit_;
   std::size_t most_;
@@ -153,6 +165,7 @@ constexpr std::size_t kManyTouches = 20;
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// Probability that at least so many of `all` touches are outliers.
+/// The binomial distribution's upper tail, as an incomplete beta function.
 double chance_of(std::size_t outliers, std::size_t all) {
   if (outliers == 0) return 1;
   if (outliers > all) return 0;
@@ -161,6 +174,7 @@ double chance_of(std::size_t outliers, std::size_t all) {
 }
 
 /// As many as there is any chance of.
+/// The largest number that chance makes more often than kLeastChance.
 std::size_t most_outliers(std::size_t touches) {
   std::size_t most = 0;
   while (most < touches && chance_of(most + 1, touches) > kLeastChance) ++most;
@@ -168,8 +182,10 @@ std::size_t most_outliers(std::size_t touches) {
 }
 
 /// The next choice of as many of `count` things, in the order of their numbers; false after the last one.
+/// `chosen`: ascending, REQUIRES at least one.
 bool choose_next(Outliers& chosen, std::size_t count) {
   for (std::size_t k = chosen.size(); k-- > 0;) {
+    // It is as large as it can be: the one before has to grow.
     if (chosen[k] == count - chosen.size() + k) continue;
     ++chosen[k];
     for (std::size_t next = k + 1; next < chosen.size(); ++next) chosen[next] = chosen[next - 1] + 1;
@@ -178,12 +194,14 @@ bool choose_next(Outliers& chosen, std::size_t count) {
   return false;
 }
 
+/// log(e^a + e^b); of two that are minus infinity that.
 double log_sum(double a, double b) {
   const double more = std::max(a, b);
   return std::isinf(more) ? more : more + std::log1p(std::exp(std::min(a, b) - more));
 }
 
 /// log(1 / c_k), and log q_k.
+/// Units: length^2 for a place, radians for a normal; 0 of what was not measured.
 double log_width(const Measured& touch) {
   return (touch.has_place ? std::log(2 * std::numbers::pi) + 2 * std::log(touch.place_unit) : 0) +
          (touch.tangent ? 0.5 * std::log(2 * std::numbers::pi) + std::log(touch.angle_unit) : 0);
@@ -193,24 +211,31 @@ double log_of_outlier(const Measured& touch, double perimeter) {
   return -(touch.has_place ? 2 * std::log(perimeter) : 0) - (touch.tangent ? std::log(2 * std::numbers::pi) : 0);
 }
 
+/// The sum over sets S of touches that are outliers, docs/touch.md, "Outliers".
 class OutlierSets {
  public:
   OutlierSets(const TouchProblem& problem, const SolveCounted& solve_counted, TouchAnswer& answer)
       : problem_(problem), solve_counted_(solve_counted), answer_(answer), touches_(measured(problem)) {}
 
+  /// First no outliers, S = {}: it tells facts of the answer that do not depend on S. If all touches together leave the
+  /// pose open, so does any set.
   void solve() {
     add({});
     if (std::isfinite(log_anywhere_)) return leave_open();
     const std::size_t most = most_outliers(touches_.size());
     const bool are_many = touches_.size() >= kLeastGroup * (most + 1);
+    // From kManyTouches on only candidates are looked at.
     const bool any_found = are_many && add_candidates(most);
     if (!any_found && touches_.size() < kManyTouches) add_all(most);
     finish();
   }
 
  private:
+  /// By size, 1 to `most`. Ends early where all sets of one size have a share of kNegligibleSize at most, and the best
+  /// set so far fits: larger sets are less probable still.
   void add_all(std::size_t most) {
     for (std::size_t size = 1; size <= most; ++size) {
+      // The first choice: 0, 1, ...
       Outliers outliers(size);
       for (std::size_t k = 0; k < size; ++k) outliers[k] = k;
       double of_size = kNone;
@@ -232,6 +257,7 @@ class OutlierSets {
   }
 
   /// Takes what the others say into account; the logarithm of the set's weight.
+  /// log w(S). Minus infinity where nothing fits the others, or their evidence is not known.
   double add(const Outliers& outliers) {
     double log_weight = 0;
     for (const std::size_t k : outliers) {
@@ -240,6 +266,7 @@ class OutlierSets {
     }
     TouchAnswer counted = without(outliers);
     const bool is_open = counted.verdict.name == Verdict::unobservable && counted.poses.empty();
+    // log Z(S): as the counted solve says, or of an open pose in closed form.
     log_weight += is_open                            ? log_evidence_anywhere(outliers)
                   : std::isnan(counted.log_evidence) ? kNone
                                                      : counted.log_evidence;
@@ -251,6 +278,7 @@ class OutlierSets {
     log_outlier_.resize(touches_.size(), kNone);
     for (const std::size_t k : outliers) log_outlier_[k] = log_sum(log_outlier_[k], log_weight);
     if (is_open) return log_weight;
+    // The leader: the most probable set so far, whose fit is told.
     if (log_weight > log_leader_) {
       log_leader_ = log_weight;
       answer_.fit = counted.fit;
@@ -262,6 +290,7 @@ class OutlierSets {
   }
 
   /// The answer by all touches but these.
+  /// Unobservable, without a search, where no contact that counts has a place.
   TouchAnswer without(const Outliers& outliers) const {
     TouchProblem counted = problem_;
     counted.touches.clear();
@@ -280,6 +309,9 @@ class OutlierSets {
   }
 
   /// Of touches that leave the pose open: one, or several at one place, which agree at best.
+  /// log Z(S) of the others: the integral of their likelihood over all poses. Every place on the boundary is as good,
+  /// so only what the touches do not tell counts: the place, P^2 or the prior's 2 pi sd^2, and the heading, 2 pi or the
+  /// prior's sqrt(2 pi) sd. Each further touch divides by P sd sqrt(4 pi).
   double log_evidence_anywhere(const Outliers& outliers) const {
     const double perimeter = problem_.part.perimeter();
     double log_evidence = -1.5 * std::log(2 * std::numbers::pi);
@@ -309,6 +341,7 @@ class OutlierSets {
     answer_.log_evidence = 0;  // the same on any part
   }
 
+  /// Of the solve without outliers.
   void take_facts(const TouchAnswer& counted) {
     answer_.tolerance = counted.tolerance;
     answer_.rolls = counted.rolls;
@@ -322,14 +355,17 @@ class OutlierSets {
     answer_.unresolved = counted.unresolved;
     answer_.unresolved_touch = counted.unresolved_touch;
     for (const std::size_t k : outliers) {
+      // Contacts of the counted solve are numbered without the outliers: numbers after each grow by one.
       if (problem_.rolls.size() + k <= answer_.unresolved_touch) ++answer_.unresolved_touch;
     }
   }
 
+  /// The best set has weight and does not contradict the noise.
   bool leader_fits() const {
     return std::isfinite(log_leader_) && !answer_.verdict.fits_badly && !(answer_.fit && answer_.fit->is_bad());
   }
 
+  /// Shares of the sum of all weights; (1 - e)^n, for n touches, is the factor that all w(S) lack.
   void finish() {
     if (!std::isfinite(log_total_)) return;
     answer_.log_evidence = log_total_ + static_cast<double>(touches_.size()) * std::log(1 - belief::kOutlierShare);
@@ -343,9 +379,11 @@ class OutlierSets {
   TouchAnswer& answer_;
   std::vector<Measured> touches_;
   PoseMixture mixture_;
+  // Logs of sums of w(S): of all sets, of those that leave the pose open, and the largest w.
   double log_total_ = kNone;
   double log_anywhere_ = kNone;
   double log_leader_ = kNone;
+  // Of each touch: the sum over the sets in which it is an outlier.
   std::vector<double> log_outlier_;
 };
 

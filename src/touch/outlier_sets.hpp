@@ -13,6 +13,8 @@ using SolveCounted = std::function<void(const TouchProblem&, TouchAnswer&)>;
 
 /// The poses if any touch may be an outlier, and the verdict is yet to be made. REQUIRES noise, and two contacts or
 /// more.
+/// `solve_counted` is called for each set of outliers with the other touches; it gets an answer with part, touches,
+/// radius and noise.
 void solve_with_outliers(const TouchProblem& problem, const SolveCounted& solve_counted, TouchAnswer& answer);
 
 /// Whether chance makes so many touches outliers less than once in a thousand times.

@@ -33,10 +33,13 @@ constexpr int kMostJumps = 4;
 // Where a nearest place is free to move, the slope there is less, in standard deviations.
 constexpr double kNoSlope = 1e-4;
 // A heading is somewhere on the circle, even where no touch tells where: this many radians, as a standard deviation.
+// As a prior it is so weak that it moves no pose that a touch holds.
 constexpr double kAnyHeading = std::numbers::pi;
 
 }  // namespace
 
+/// J^T v and v^T v of one contact, for residuals in their units. Along the path the centre moves by dc/du, with a turn
+/// of the pose by left(c - about) dphi; of a normal the two are bend du and dphi. All three have the same sign.
 Mixed mixed_at(const PartFrame& frame, const InPart& touch, const CentrePoint& point) {
   Mixed mixed;
   if (touch.has_place) {
@@ -53,14 +56,18 @@ Mixed mixed_at(const PartFrame& frame, const InPart& touch, const CentrePoint& p
   return mixed;
 }
 
+/// J^T J and -J^T r with the contact held at `point`. A step is (dx, dy, dphi) of what lies at `about`.
 Normals normals_at(const PartFrame& frame, const InPart& touch, const CentrePoint& point) {
   Normals normals;
   if (touch.has_place) {
     const double share = 1 / (touch.place_unit * touch.place_unit);
+    // d(R c)/dphi, in the part's frame and in the world.
     const Vec2 left = turned_left(point.centre - frame.about);
     const Vec2 turn = frame.in_world(left);
     const Vec2 off = touch.at - point.centre;
     const Vec2 pull = frame.in_world(off);
+    // J = -(I
+    // turn): J^T J has |turn|^2 = |left|^2 in its corner.
     normals.matrix << 1, 0, turn.x(), 0, 1, turn.y(), turn.x(), turn.y(), left.squaredNorm();
     normals.matrix *= share;
     normals.slope = share * Eigen::Vector3d(pull.x(), pull.y(), left.dot(off));
@@ -73,6 +80,7 @@ Normals normals_at(const PartFrame& frame, const InPart& touch, const CentrePoin
 }
 
 /// A pose, where each contact is then, and the sum of squares.
+// Between two steps `contacts` are the nearest places in `pose`, and `square` is of these and of the prior.
 struct PoseFit::State {
   Pose pose;
   PartFrame frame;
@@ -80,6 +88,8 @@ struct PoseFit::State {
   double square = 0;
 };
 
+/// `touches` outlive this. `about_` is the mean of the measured centres, which makes x, y and heading nearly
+/// independent. Without any place: the origin.
 PoseFit::PoseFit(const std::vector<Measured>& touches, const std::optional<PosePrior>& prior)
     : touches_(touches), prior_(prior) {
   double places = 0;
@@ -89,6 +99,7 @@ PoseFit::PoseFit(const std::vector<Measured>& touches, const std::optional<PoseP
   }
 }
 
+/// X = q - R(phi) c(u). Of a roll with noise the node's own mean pose, whatever `heading` is.
 Pose PoseFit::pose_at(const Held& held, double heading) const {
   if (const RollBelief* roll = touches_[held.touch].roll) return roll->pose_at(roll->at(held.place));
   Pose pose{0, 0, heading};
@@ -98,10 +109,12 @@ Pose PoseFit::pose_at(const Held& held, double heading) const {
 
 PartFrame PoseFit::frame(const Pose& pose) const {
   PartFrame frame{{std::cos(pose.heading), std::sin(pose.heading)}};
+  // In the part's frame a turn about `about` is a turn about R(-phi)(about - X).
   frame.about = frame.in_part(about_ - Vec2(pose.x, pose.y));
   return frame;
 }
 
+/// R(-phi)(q - X) and tau - phi.
 InPart PoseFit::in_part(const Pose& pose, const PartFrame& frame, std::size_t touch) const {
   const Measured& one = touches_[touch];
   InPart result;
@@ -115,6 +128,8 @@ InPart PoseFit::in_part(const Pose& pose, const PartFrame& frame, std::size_t to
 
 InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const { return in_part(pose, frame(pose), touch); }
 
+/// A contact at the end of a stretch with a slope left is held there by a corner, by the end of an open outline or of
+/// the reach. Weight 0: moving along the path changes nothing, so there is nothing to eliminate.
 bool PoseFit::is_pinned_at(const PathPlace& place, std::size_t touch, const Distance& distance) const {
   if (distance.weight == 0) return true;
   const CentreStretch& stretch = path(touch).stretches()[place.stretch];
@@ -123,6 +138,7 @@ bool PoseFit::is_pinned_at(const PathPlace& place, std::size_t touch, const Dist
   return is_end && std::abs(distance.slope) > kNoSlope * std::sqrt(distance.weight);
 }
 
+/// A roll's nodes slide between neighbours, so it is never pinned.
 bool PoseFit::is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const {
   if (touches_[touch].roll != nullptr) return false;
   return is_pinned_at(place, touch, distance_at(path(touch).at(place), in_part(pose, touch)));
@@ -134,6 +150,7 @@ OnPath PoseFit::on_path(const PathPlace& place, std::size_t touch) const {
   return {place, path(touch).at(place)};
 }
 
+/// The best of all places, of a roll the best of all nodes.
 OnPath PoseFit::nearest_to(const Pose& pose, std::size_t touch) const {
   const RollBelief* roll = touches_[touch].roll;
   if (roll != nullptr) return {roll->nearest(pose).place, {}};
@@ -146,6 +163,7 @@ PathPlace PoseFit::downhill_from(const PathPlace& place, const Pose& pose, std::
                          : downhill(path(touch), in_part(pose, touch), on_path(place, touch)).place;
 }
 
+/// A touch is at its place either way; a roll may slide within its node unless it is held.
 double PoseFit::square_at(const Pose& pose, std::size_t touch, const PathPlace& place, bool is_held) const {
   if (const RollBelief* roll = touches_[touch].roll) return roll->square(pose, roll->at(place), !is_held);
   return distance_at(path(touch).at(place), in_part(pose, touch)).square;
@@ -158,6 +176,7 @@ Normals PoseFit::held_normals(const Pose& pose, std::size_t touch, const PathPla
 }
 
 /// A touch's share of the normal equations, held where it is, or free to move.
+/// M of the file's notation. At a pinned place J^T J alone, since u_i can't follow the pose.
 Normals PoseFit::share_of(std::size_t touch, const State& state, bool is_held) const {
   const OnPath& at = state.contacts[touch];
   if (const RollBelief* roll = touches_[touch].roll) {
@@ -166,11 +185,15 @@ Normals PoseFit::share_of(std::size_t touch, const State& state, bool is_held) c
   const InPart one = in_part(state.pose, state.frame, touch);
   Normals normals = normals_at(state.frame, one, at.point);
   if (is_held || is_pinned_at(at.place, touch, distance_at(at.point, one))) return normals;
+  // Free to move: v eliminated, by the Schur complement.
   const Mixed mixed = mixed_at(state.frame, one, at.point);
+  // The slope stays: at the nearest place v^T r = 0.
   normals.matrix -= mixed.by_pose * mixed.by_pose.transpose() / mixed.weight;
   return normals;
 }
 
+/// At the best pose for each u the gradient stays zero: M dpose + J^T v du = 0, so dpose/du = -M^-1 J^T v. The
+/// information of u is the Schur complement v^T v - v^T J M^-1 J^T v, not below 0.
 ByPlace PoseFit::by_place(const FittedPose& fitted, const Held& held) const {
   const PartFrame by = frame(fitted.pose);
   const Mixed mixed = mixed_at(by, in_part(fitted.pose, by, held.touch), path(held.touch).at(held.place));
@@ -181,6 +204,7 @@ ByPlace PoseFit::by_place(const FittedPose& fitted, const Held& held) const {
   return result;
 }
 
+/// `step`: of what lies at `about`. Place and normal of each touch count by themselves.
 double PoseFit::touches_moved(const Eigen::Vector3d& step) const {
   double most = 0;
   for (const Measured& touch : touches_) {
@@ -193,6 +217,8 @@ double PoseFit::touches_moved(const Eigen::Vector3d& step) const {
   return most;
 }
 
+/// The weak prior on the heading keeps the matrix regular where nothing else tells it; its slope is left out. A prior
+/// of the heading alone has an infinite `place_sd`.
 Normals PoseFit::prior_normals(const Pose& pose) const {
   Normals normals;
   normals.matrix(2, 2) = 1 / (kAnyHeading * kAnyHeading);
@@ -200,6 +226,7 @@ Normals PoseFit::prior_normals(const Pose& pose) const {
   const double heading = 1 / (prior_->heading_sd * prior_->heading_sd);
   normals.matrix(2, 2) += heading;
   normals.slope(2) = heading * nearest_angle(prior_->mean.heading - pose.heading);
+  // The place is that of the part's origin, which a turn about `about` moves as well.
   if (!std::isfinite(prior_->place_sd)) return normals;
   Eigen::Matrix<double, 2, 3> by_pose;
   by_pose << Eigen::Matrix2d::Identity(), turned_left(Vec2(pose.x, pose.y) - about_);
@@ -210,6 +237,7 @@ Normals PoseFit::prior_normals(const Pose& pose) const {
   return normals;
 }
 
+/// Of an infinite `place_sd` the place adds 0.
 double PoseFit::prior_square(const Pose& pose) const {
   if (!prior_) return 0;
   const double heading = nearest_angle(prior_->mean.heading - pose.heading) / prior_->heading_sd;
@@ -217,18 +245,21 @@ double PoseFit::prior_square(const Pose& pose) const {
   return heading * heading + place * place;
 }
 
+/// The part turned by step(2) about `about`, then moved.
 Pose PoseFit::moved(const Pose& pose, const Eigen::Vector3d& step) const {
   const Pose turn{0, 0, step(2)};
   const Vec2 place = about_ + turn.turned(Vec2(pose.x, pose.y) - about_) + step.head<2>();
   return {place.x(), place.y(), pose.heading + step(2)};
 }
 
+/// A length: the move after one has been turned into the other's heading, and the turn times the part's diagonal.
 double PoseFit::distance(const Pose& one, const Pose& other) const {
   const double turn = nearest_angle(one.heading - other.heading);
   const Pose turned = moved(other, {0, 0, turn});
   return std::hypot(one.x - turned.x, one.y - turned.y) + path(0).diagonal() * std::abs(turn);
 }
 
+/// (X, Y, phi) of the part's origin: X moves by the arm from `about` to it times dphi.
 Eigen::Matrix3d PoseFit::at_origin(const Pose& pose, const Eigen::Matrix3d& covariance) const {
   Eigen::Matrix3d by = Eigen::Matrix3d::Identity();
   by.topRightCorner<2, 1>() = turned_left(Vec2(pose.x, pose.y) - about_);
@@ -254,6 +285,7 @@ void PoseFit::go_downhill(State& state, const std::optional<Held>& held, double 
   }
 }
 
+/// The matrix and the right side of the step (J^T J) step = -J^T r, prior and all contacts.
 Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held) const {
   Normals sum = prior_normals(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -265,9 +297,13 @@ Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held)
 }
 
 /// false: it ends at a pose that is known to lead to nothing new.
+/// Levenberg's method: a step that makes the squares larger is tried again with ten times the damping, after a good one
+/// damping falls to a tenth. Each trial takes the contacts to their nearest places first. `is_known` is asked after
+/// each step that counts.
 bool PoseFit::descend(State& state, const std::optional<Held>& held, const IsKnown& is_known) const {
   go_downhill(state, held);
   State next;
+  // Small at first: near the best pose Gauss-Newton's steps are good.
   double damping = 1e-6;
   Normals normals = normals_of(state, held);
   for (int round = 0; round < kMostRounds && damping < kMostDamping; ++round) {
@@ -275,9 +311,12 @@ bool PoseFit::descend(State& state, const std::optional<Held>& held, const IsKno
     matrix.diagonal() *= 1 + damping;
     next = state;
     const Eigen::Vector3d step = matrix.ldlt().solve(normals.slope);
+    // What the model says that a whole step gains: if it is that little, this step is the last one.
     const bool is_last = step.dot(normals.slope) <= kSettled * (1 + state.square);  // but for rounding, and bends
     next.pose = moved(state.pose, step);
+    // It may stop early, with a sum that is already larger: the step is refused then anyway.
     go_downhill(next, held, state.square);
+    // Negated, so that a NaN counts as worse.
     if (!(next.square <= state.square)) {
       if (is_last) break;
       damping *= 10;
@@ -287,6 +326,7 @@ bool PoseFit::descend(State& state, const std::optional<Held>& held, const IsKno
     std::swap(state, next);
     damping = std::max(0.1 * damping, 1e-12);
     if (is_last || gain <= kSettled * (1 + state.square)) break;
+    // Another descent has ended where this one goes.
     if (is_known && is_known(state.pose, state.square)) return false;
     normals = normals_of(state, held);
   }
@@ -294,6 +334,7 @@ bool PoseFit::descend(State& state, const std::optional<Held>& held, const IsKno
 }
 
 /// Whether another touch is nearer to another place than where going downhill has led it.
+/// It moves all of them that are, of a roll to its best node. The held one stays.
 bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) const {
   bool jumped = false;
   for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -301,6 +342,7 @@ bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) const {
     OnPath& at = state.contacts[k];
     if (const RollBelief* roll = touches_[k].roll) {
       const RollNode& there = roll->nearest(state.pose);
+      // Nearer by more than rounding, or the two would take turns.
       const double here = roll->square(state.pose, roll->at(at.place), true);
       if (roll->square(state.pose, there, true) >= here - 1e-6 * (1 + here)) continue;
       at.place = there.place;
@@ -315,9 +357,11 @@ bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) const {
   return jumped;
 }
 
+/// Descents and jumps in turn, until no contact jumps. None: `is_known` ended it.
 std::optional<FittedPose> PoseFit::settled(State state, const std::optional<Held>& held,
                                            const IsKnown& is_known) const {
   beat();
+  // Every jump makes the sum of squares smaller, so none leads back.
   for (int jump = 0; jump < kMostJumps; ++jump) {
     if (!descend(state, held, is_known)) return std::nullopt;
     if (!jump_nearer(state, held)) break;
@@ -328,6 +372,7 @@ std::optional<FittedPose> PoseFit::settled(State state, const std::optional<Held
   return fitted;
 }
 
+/// Nothing is fitted: squares and information as they are there.
 FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
   State state{pose, frame(pose), {}, prior_square(pose)};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -344,6 +389,7 @@ FittedPose PoseFit::at(const Pose& pose) const {
   return at(pose, std::move(places));
 }
 
+/// Each contact at its nearest of all places, the held one where it is held. `square` and `frame` are not set yet.
 PoseFit::State PoseFit::start(const Pose& from, const std::optional<Held>& held) const {
   State state{from, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -362,6 +408,7 @@ std::optional<FittedPose> PoseFit::fit_unless(const IsKnown& is_known, const Pos
   return settled(start(from, held), held, is_known);
 }
 
+/// Contacts start where `from` has them, which saves the search over the whole boundary.
 FittedPose PoseFit::fit(const FittedPose& from, const std::optional<Held>& held) {
   State state{from.pose, {}, {}, 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {

@@ -14,6 +14,7 @@
 
 namespace rollfix::touch {
 
+/// By 90 degrees counter-clockwise.
 inline Vec2 turned_left(const Vec2& vector) { return {-vector.y(), vector.x()}; }
 
 /// A touch whose place on the part is held.
@@ -69,10 +70,12 @@ Mixed mixed_at(const PartFrame& frame, const InPart& touch, const CentrePoint& p
 /// the world near the touches.
 class PoseFit {
  public:
+  /// `touches` outlive this, and each has its tree by the first fit.
   PoseFit(const std::vector<Measured>& touches, const std::optional<PosePrior>& prior);
 
   /// The pose with this heading that has the finger at the touch when the contact is there.
   Pose pose_at(const Held& held, double heading) const;
+  /// The best pose that descents from this one lead to: a local minimum of the sum of squares, no more.
   FittedPose fit(const Pose& from, const std::optional<Held>& held = {});
   /// The same from a pose whose contacts are known, if a little off.
   FittedPose fit(const FittedPose& from, const std::optional<Held>& held = {});
@@ -92,7 +95,9 @@ class PoseFit {
   PathTree& tree(std::size_t touch) const { return *touches_[touch].tree; }
   const CentrePath& path(std::size_t touch) const { return tree(touch).path(); }
   const std::vector<Measured>& touches() const { return touches_; }
+  /// Cosine and sine of the heading, computed once for many contacts.
   PartFrame frame(const Pose& pose) const;
+  /// A touch as the part's frame has it in this pose.
   InPart in_part(const Pose& pose, std::size_t touch) const;
   /// The place of a contact that fits a pose best, by going downhill from another.
   PathPlace downhill_from(const PathPlace& place, const Pose& pose, std::size_t touch) const;
@@ -108,6 +113,7 @@ class PoseFit {
   Normals prior_normals(const Pose& pose) const;
   double prior_square(const Pose& pose) const;
   bool knows_heading() const { return prior_.has_value(); }
+  /// By a step (dx, dy, dphi) of what lies at `about`; the heading is not reduced.
   Pose moved(const Pose& pose, const Eigen::Vector3d& step) const;
   /// Whether a nearest place is at a corner, or an end, so that it stays there when the pose moves a little.
   bool is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const;
@@ -133,7 +139,9 @@ class PoseFit {
   static constexpr double kAnySquare = std::numeric_limits<double>::infinity();
 
   const std::vector<Measured>& touches_;
+  // None: nothing is known beforehand.
   std::optional<PosePrior> prior_;
+  // Mean of the measured centres, in the world.
   Vec2 about_ = Vec2::Zero();
 };
 

@@ -31,6 +31,7 @@ constexpr std::size_t kMostLooks = 40;
 constexpr double kNextLook = 0.6180339887498949;
 
 /// A pose to start from with the first touch on this stretch; none where a roll's belief has nothing there.
+/// Of a touch at the middle of the stretch, with this heading; of a roll the middle one of its nodes there.
 std::optional<Pose> start_in(const PoseFit& fit, const PathTree::Node& node, double heading, std::size_t touch) {
   const auto stretch = static_cast<std::size_t>(node.stretch);
   const RollBelief* roll = fit.touches()[touch].roll;
@@ -48,6 +49,7 @@ constexpr double kQuantileShare = 1e-11;
 constexpr std::uintmax_t kMostIterations = 200;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
+// Of each group the groups that it is linked to.
 using Links = std::vector<std::vector<std::size_t>>;
 
 /// The largest density of each group; kNever where it has no node.
@@ -61,11 +63,16 @@ std::vector<double> densities_of(const Posterior& posterior) {
 
 /// Groups that have no nodes of their own and hang together, and their neighbours that have: for a point, a corner.
 struct Bridge {
+  // Linked with each other; none of them has a node or an owner.
   std::vector<std::size_t> groups;
+  // Groups with nodes beside them; empty where there is none.
   std::vector<std::size_t> ends;
 };
 
+/// Without them a point's pose on one side of a corner and that on the other side would not hang together: at the
+/// corner the boundary has no length, so no node.
 std::vector<Bridge> bridges_of(const CellSets& sets, const Posterior& posterior, const std::vector<double>& density) {
+  // A group whose fits all ended in another group's pose is no bridge: it has an owner.
   const auto is_bridge = [&](std::size_t g) { return density[g] == kNever && posterior.owner[g] == Posterior::kNone; };
   UnionFind joined(density.size());
   for (const auto& [one, other] : sets.links) {
@@ -79,11 +86,13 @@ std::vector<Bridge> bridges_of(const CellSets& sets, const Posterior& posterior,
     if (is_bridge(one) && density[other] != kNever) bridges[joined.find(one)].ends.push_back(other);
     if (is_bridge(other) && density[one] != kNever) bridges[joined.find(other)].ends.push_back(one);
   }
+  // Bridges stand at the index of their root: the others are empty.
   std::erase_if(bridges, [](const Bridge& bridge) { return bridge.groups.empty(); });
   return bridges;
 }
 
 /// Neighbours of each group; what lies at the ends of a bridge is linked.
+/// The ends of one bridge are linked in a chain.
 Links linked_groups(const CellSets& sets, const std::vector<Bridge>& bridges) {
   Links linked(sets.groups.size());
   const auto link = [&](std::size_t one, std::size_t other) {
@@ -98,6 +107,8 @@ Links linked_groups(const CellSets& sets, const std::vector<Bridge>& bridges) {
 }
 
 /// Groups from the densest on: each joins its neighbours, where the way from one peak to the other is not too low.
+/// At each turn `seen` are the groups that are at least as dense as g. Two sets that meet at g are one mode if
+/// the log density at g is less than kValley below the lower of their peaks.
 void merge_neighbours(const Links& linked, const std::vector<double>& density, UnionFind& merged) {
   std::vector<double> peak = density;  // of a set at its root
   std::vector<std::size_t> order(linked.size());
@@ -106,22 +117,26 @@ void merge_neighbours(const Links& linked, const std::vector<double>& density, U
   const auto denser = [&](std::size_t a, std::size_t b) { return peak[a] > peak[b]; };
   std::vector<bool> seen(linked.size(), false);
   for (const std::size_t g : order) {
+    // From here on no group has nodes.
     if (density[g] == kNever) break;
     seen[g] = true;
     std::vector<std::size_t> roots;
     for (const std::size_t next : linked[g]) {
       if (seen[next]) roots.push_back(merged.find(next));
     }
+    // The denser neighbour first: g belongs to the higher peak.
     std::sort(roots.begin(), roots.end(), denser);
     for (const std::size_t root : roots) {
       const std::size_t own = merged.find(g);
       const std::size_t other = merged.find(root);
       if (own == other || !(std::min(peak[own], peak[other]) - density[g] < kValley)) continue;
+      // The root of the joined set is that of the higher peak, so `peak` stays right.
       merged.join(denser(own, other) ? own : other, denser(own, other) ? other : own);
     }
   }
 }
 
+/// Groups with nodes by `merge_neighbours`; a group without goes with its owner, or with the densest end of its bridge.
 std::vector<std::vector<std::size_t>> merged_groups(const CellSets& sets, const Posterior& posterior) {
   const std::vector<double> density = densities_of(posterior);
   const std::vector<Bridge> bridges = bridges_of(sets, posterior, density);
@@ -132,6 +147,7 @@ std::vector<std::vector<std::size_t>> merged_groups(const CellSets& sets, const 
   }
   for (const Bridge& bridge : bridges) {
     if (bridge.ends.empty()) continue;
+    // A bridge belongs to the denser side; between two modes it must go to one of them.
     const std::size_t densest = *std::max_element(
         bridge.ends.begin(), bridge.ends.end(), [&](std::size_t a, std::size_t b) { return density[a] < density[b]; });
     for (const std::size_t g : bridge.groups) merged.join(densest, g);
@@ -140,8 +156,10 @@ std::vector<std::vector<std::size_t>> merged_groups(const CellSets& sets, const 
 }
 
 /// The modes by their probabilities. `mode_of`: of each group.
+/// Shares of the sum of all weights; modes without nodes go.
 std::vector<PoseMode> with_nodes(std::vector<PoseMode> modes, const std::vector<std::size_t>& mode_of,
                                  const std::vector<PosteriorNode>& nodes) {
+  // Weights as shares of the largest, so that exp does not underflow.
   double most = kNever;
   for (const PosteriorNode& node : nodes) most = std::max(most, node.log_weight);
   double total = 0;
@@ -161,19 +179,25 @@ std::vector<PoseMode> with_nodes(std::vector<PoseMode> modes, const std::vector<
 
 }  // namespace
 
+/// In rounds, one look in each component: so the least square of all is known early, and only components that still
+/// seem hopeless are looked at again. Of large components at most kMostLooks looks are taken.
 std::vector<bool> hopeless_groups(PoseFit& fit, const CellSets& sets, std::size_t first_touch) {
+  // Of each component all its cells.
   std::vector<std::vector<std::size_t>> cells(sets.components.size());
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for (const std::size_t g : sets.components[c]) {
       cells[c].insert(cells[c].end(), sets.groups[g].begin(), sets.groups[g].end());
     }
   }
+  // Of each component the least found so far; infinite: not looked at, or a roll has nothing there.
   std::vector<double> squares(cells.size(), std::numeric_limits<double>::infinity());
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t look = 0; look < kMostLooks; ++look) {
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const std::size_t looks = std::clamp(cells[c].size() / kCellsPerLook, kLeastLooks, kMostLooks);
+      // Looked at often enough, or known to have hope.
       if (look >= std::min(cells[c].size(), looks) || (look > 0 && squares[c] <= least + kHopeless)) continue;
+      // The first look is in the middle.
       const double share = 0.5 + static_cast<double>(look) * kNextLook;
       const auto which = static_cast<std::size_t>((share - std::floor(share)) * static_cast<double>(cells[c].size()));
       const Cell& cell = sets.cells[cells[c][which]];
@@ -201,6 +225,7 @@ std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior)
   return with_nodes(std::move(modes), mode_of, nodes);
 }
 
+/// By `group` alone: its numbers need not be without gaps.
 std::vector<PoseMode> modes_of(const std::vector<PosteriorNode>& nodes) {
   std::vector<std::size_t> mode_of;
   for (const PosteriorNode& node : nodes) {
@@ -209,13 +234,17 @@ std::vector<PoseMode> modes_of(const std::vector<PosteriorNode>& nodes) {
   return with_nodes(std::vector<PoseMode>(mode_of.size()), mode_of, nodes);
 }
 
+/// Quantiles of a mixture of normal distributions, by bracketing its distribution function; `terms` need not be
+/// normalized. A term without spread is a step.
 Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {
+  // All quantiles lie between these two.
   double total = 0, least = std::numeric_limits<double>::infinity(), most = -least;
   for (const MixtureTerm& term : terms) {
     total += term.weight;
     least = std::min(least, term.mean - kAllOfTerm * term.sd);
     most = std::max(most, term.mean + kAllOfTerm * term.sd);
   }
+  // The share of the weight below a value.
   const auto below = [&](double value) {
     double sum = 0;
     for (const MixtureTerm& term : terms) {
@@ -234,6 +263,7 @@ Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {
     return !(hi - lo > close && lo < middle && middle < hi);
   };
   const auto quantile = [&](double wanted) {
+    // All terms at one value, with no spread.
     if (is_close(least, most)) return 0.5 * (least + most);
     std::uintmax_t iterations = kMostIterations;
     const auto off = [&](double value) { return below(value) - wanted; };

@@ -17,6 +17,7 @@
 namespace rollfix::touch {
 namespace {
 
+// Of the least standard deviation, or tolerance, of a place: two poses that differ by less are one.
 constexpr double kSame = 0.2;
 
 // Discs of the first level, as a share of the part's diagonal, and how much finer each next one is.
@@ -28,8 +29,11 @@ constexpr double kContinuumShare = 0.1;
 // More cells than so many times what is enough are a continuum: coarser ones will do.
 constexpr std::size_t kFarTooMany = CellSearch::kMostCells / kEnoughCells;
 
+/// The leaf of the next level, no finer than what tolerances ask for.
 double finer(double leaf) { return std::max(CellSearch::kLeaf, kFinerLevel * leaf); }
 
+/// The leaf of the first level, in tolerances: discs of kFirstDisc of the diagonal, tangents of kFirstDisc radians. No
+/// finer than kLeaf, where tolerances are as wide as that.
 double coarsest_leaf(const std::vector<Measured>& contacts, const TouchPair& pair) {
   const double disc = kFirstDisc * contacts[pair.first].tree->path().diagonal();
   double leaf = CellSearch::kLeaf;
@@ -40,6 +44,7 @@ double coarsest_leaf(const std::vector<Measured>& contacts, const TouchPair& pai
   return leaf;
 }
 
+/// Of a component: cells of all its groups.
 std::size_t count_cells(const CellSets& sets, const std::vector<std::size_t>& groups) {
   std::size_t count = 0;
   for (const std::size_t g : groups) count += sets.groups[g].size();
@@ -50,6 +55,7 @@ void add(const std::vector<Cell>& more, std::vector<Cell>& to) { to.insert(to.en
 
 }  // namespace
 
+/// All cells of these groups, in the groups' order.
 std::vector<Cell> cells_of(const CellSets& sets, const std::vector<std::size_t>& groups) {
   std::vector<Cell> cells;
   for (const std::size_t g : groups) {
@@ -58,6 +64,7 @@ std::vector<Cell> cells_of(const CellSets& sets, const std::vector<std::size_t>&
   return cells;
 }
 
+/// Infinite where no contact has a place.
 double least_difference(const std::vector<Measured>& contacts) {
   double least = std::numeric_limits<double>::infinity();
   for (const Measured& one : contacts) {
@@ -68,6 +75,7 @@ double least_difference(const std::vector<Measured>& contacts) {
 
 void add_set(const Asked& asked, PoseSet set, std::vector<PoseSet>& to) {
   const double least = least_difference(asked.fit.touches());
+  // A set joins the first one with about its pose; the better fit of the two stays.
   for (PoseSet& known : to) {
     // Where nothing tells the place, answers are of where the contacts are.
     if (asked.place != PlaceKnown::measured) break;
@@ -81,17 +89,21 @@ void add_set(const Asked& asked, PoseSet set, std::vector<PoseSet>& to) {
   to.push_back(std::move(set));
 }
 
+/// `search` starts anew where the first one is abandoned, so that its own comparisons begin at 0.
 LevelCells search_levels(std::optional<CellSearch>& search, const AllContacts& contacts, const TouchPair& pair,
                          std::size_t budget, std::size_t enough) {
   LevelCells level;
+  // Of a search that meets so many cells, the finest leaf is too fine for a continuum.
   const std::size_t most = kFarTooMany * enough;
   search.emplace(contacts.each, pair, budget, most);
+  // Of touches alone the finest leaf is tried first: mostly it has few cells.
   if (contacts.rolls.empty()) {
     level.cells = search->search();
     if (level.cells.undecided.empty()) return level;
     level.abandoned = search->comparisons();
     search.emplace(contacts.each, pair, budget, most);
   }
+  // From coarse to fine: each level cuts the cells of the last one, until there are enough to show a continuum.
   level.leaf = coarsest_leaf(contacts.each, pair);
   level.cells = search->search(level.leaf);
   while (level.leaf > CellSearch::kLeaf && level.cells.fit.size() < enough && level.cells.undecided.empty()) {
@@ -101,6 +113,8 @@ LevelCells search_levels(std::optional<CellSearch>& search, const AllContacts& c
   return level;
 }
 
+/// Each turn: `cells` are all of one leaf that no set of a coarser level holds. Blocked ones go, sets of few cells are
+/// cut to the next leaf, sets of many stay as they are.
 std::vector<LevelSets> cut_sets(const Asked& asked, CellSearch& search, LevelCells from, std::size_t enough) {
   const PathTree& first = asked.fit.tree(asked.pair.first);
   const PathTree& second = asked.fit.tree(asked.pair.second);
@@ -110,6 +124,7 @@ std::vector<LevelSets> cut_sets(const Asked& asked, CellSearch& search, LevelCel
   for (double leaf = from.leaf;; leaf = finer(leaf)) {
     asked.free.drop_blocked(cells, first, asked.fit.touches()[asked.pair.first]);
     CellSets sets = sets_of(first, second, std::move(cells));
+    // The finest level takes all that is left.
     if (leaf <= CellSearch::kLeaf) {
       levels.push_back({std::move(sets), leaf});
       return levels;
@@ -119,15 +134,19 @@ std::vector<LevelSets> cut_sets(const Asked& asked, CellSearch& search, LevelCel
     for (const std::vector<std::size_t>& component : sets.components) {
       add(cells_of(sets, component), count_cells(sets, component) < of_continuum ? few : kept);
     }
+    // Where the budget ends while cutting, the sets stay at this leaf: a coarser cover, but still a cover.
     Cells cut = search.search(few, finer(leaf));
     const bool is_last = few.empty() || !cut.undecided.empty();
     if (is_last) add(few, kept);
+    // Components do not change: cells that were apart at this leaf stay apart.
     if (!kept.empty()) levels.push_back({sets_of(first, second, std::move(kept)), leaf});
     if (is_last) return levels;
     cells = std::move(cut.fit);
   }
 }
 
+/// Indices of cells and of groups are moved on by those of the levels before. Sets of different levels have no links:
+/// they were different components at the coarser one.
 CellSets together(std::vector<LevelSets> levels) {
   CellSets all;
   for (LevelSets& level : levels) {

@@ -51,12 +51,15 @@ class NodeMaker {
  public:
   NodeMaker(PoseFit& fit, std::size_t first_touch) : fit_(fit), first_(first_touch) {}
 
+  /// `best`: the fit with the first touch held there. A node whose squares exceed the least met so far by kHopeless is
+  /// worth little, and takes the cheap way.
   PosteriorNode node_at(const Held& held, const FittedPose& best) {
     least_square_ = std::min(least_square_, best.square);
     return best.square > least_square_ + kHopeless ? rough_node(best) : tilted_node(held, best);
   }
 
  private:
+  /// Laplace about the best pose, each further touch's integral taken as the peak times its own standard deviation.
   PosteriorNode rough_node(const FittedPose& best) {
     PosteriorNode node;
     node.square = best.square;
@@ -68,16 +71,22 @@ class NodeMaker {
       const Measured& touch = fit_.touches()[k];
       if (touch.roll != nullptr) {
         const RollNode& at = touch.roll->at(best.places[k]);
+        // A roll's squares hold its density: that is taken out, and the node's weight counts, of the first contact
+        // later.
         node.log_density += k == first_ ? at.log_peak - at.log_density : at.log_peak + at.log_weight - at.log_density;
       } else if (k != first_) {
         node.log_density += std::log(touch.place_unit);
       }
     }
+    // The normal integral over the pose, but for (2 pi)^(3/2), which all nodes have.
     node.log_density -= 0.5 * std::log(best.information.determinant());
     return node;
   }
 
+  /// Laplace about the mode of the product of tilted likelihoods: Newton's steps from the best pose, at most
+  /// kMostTilts.
   PosteriorNode tilted_node(const Held& held, const FittedPose& best) {
+    // Each turn: `pose` and the nearest places in it; the derivatives are taken there.
     Pose pose = best.pose;
     std::vector<PathPlace> places = best.places;
     PosteriorNode node;
@@ -87,9 +96,12 @@ class NodeMaker {
       double log_likelihood = 0;
       const Normals sum = summed(held, pose, places, log_likelihood);
       Eigen::LDLT<Eigen::Matrix3d> solver(sum.matrix);
+      // The log of a tilted likelihood may not be concave there: then the step is by the fit's own information.
       if (!(solver.info() == Eigen::Success && solver.vectorD().minCoeff() > 0)) solver.compute(best.information);
       Eigen::Vector3d step = solver.solve(sum.slope);
+      // g^T H^-1 g: the square of the step, in standard deviations.
       const double gain = step.dot(sum.slope);
+      // The last step is taken by the quadratic model: half the gain more density, no new sums.
       if (gain <= kSmallTilt || tilt == kMostTilts) {
         if (gain > kLargeTilt) step *= std::sqrt(kLargeTilt / gain);
         node.pose = fit_.moved(pose, step);
@@ -98,14 +110,17 @@ class NodeMaker {
             log_likelihood + 0.5 * std::min(gain, kLargeTilt) - 0.5 * solver.vectorD().array().log().sum();
         return node;
       }
+      // A trust region: no more than sqrt(kLargeTilt) standard deviations a step.
       if (gain > kLargeTilt) step *= std::sqrt(kLargeTilt / gain);
       pose = fit_.moved(pose, step);
       for (std::size_t k = 0; k < places.size(); ++k) {
+        // The nearest places are where `tilted_touch` begins.
         if (k != first_) places[k] = fit_.downhill_from(places[k], pose, k);
       }
     }
   }
 
+  /// Log of the product of all likelihoods in a pose, with the first contact held, and its first two derivatives there.
   Normals summed(const Held& held, const Pose& pose, const std::vector<PathPlace>& places, double& log_likelihood) {
     Normals sum = fit_.prior_normals(pose);
     const Normals of_first = fit_.held_normals(pose, first_, held.place);
@@ -130,6 +145,7 @@ class NodeMaker {
 
   PoseFit& fit_;
   std::size_t first_;
+  // Of all nodes so far.
   double least_square_ = std::numeric_limits<double>::infinity();
 };
 
@@ -141,6 +157,7 @@ struct KnownPose {
 };
 
 /// Whether the node lies about the same mode: from a corner and from the side next to it one is found twice.
+/// By the node's own covariance.
 bool is_about(const PosteriorNode& node, const Pose& mode) {
   const Eigen::Vector3d apart(node.pose.x - mode.x, node.pose.y - mode.y,
                               nearest_angle(node.pose.heading - mode.heading));
@@ -151,11 +168,13 @@ bool is_about(const PosteriorNode& node, const Pose& mode) {
 double square_apart(const PoseFit& fit, const Pose& one, const Pose& other, const Eigen::Matrix3d& information) {
   Eigen::Vector3d apart(0, 0, nearest_angle(one.heading - other.heading));
   const Pose turned = fit.moved(other, apart);  // about the same point as the information
+  // Heading first, then what is left of the place.
   apart.head<2>() = Vec2(one.x - turned.x, one.y - turned.y);
   return apart.dot(information * apart);
 }
 
 /// Which of those that are known at the place a pose is; nullptr if it is none.
+/// By the found pose's information.
 const KnownPose* find_known(const PoseFit& fit, const FittedPose& found, const std::vector<KnownPose>& known) {
   const auto same = std::find_if(known.begin(), known.end(), [&](const KnownPose& one) {
     return square_apart(fit, one.fitted.pose, found.pose, found.information) <= kSamePose * kSamePose;
@@ -164,6 +183,7 @@ const KnownPose* find_known(const PoseFit& fit, const FittedPose& found, const s
 }
 
 /// Which of them a fit is about to end in, that has come to this pose and square; nullptr if in none.
+/// Near a minimum the squares are those of the known fit and of the way to it. Where they are, the descent ends there.
 const KnownPose* find_goal(const PoseFit& fit, const Pose& pose, double square, const std::vector<KnownPose>& known) {
   const auto goal = std::find_if(known.begin(), known.end(), [&](const KnownPose& one) {
     const double apart = square_apart(fit, one.fitted.pose, pose, one.fitted.information);
@@ -176,6 +196,7 @@ const KnownPose* find_goal(const PoseFit& fit, const Pose& pose, double square, 
 std::vector<double> start_headings(const CellSets& sets, const std::vector<std::size_t>& group) {
   std::vector<double> headings;
   std::vector<std::size_t> chosen = {group[group.size() / 2]};
+  // First, middle and last cell of a large group.
   if (group.size() > kFewCells) chosen = {group.front(), chosen.front(), group.back()};
   for (const std::size_t k : chosen) {
     const HeadingArc& arc = sets.cells[k].heading;
@@ -196,6 +217,7 @@ struct Column {
 };
 
 /// The roll's own nodes on the stretch.
+/// A roll's belief is a grid already: its nodes are the quadrature, with their own weights.
 Column column_of_roll(const RollBelief& roll, const PathTree::Node& at, std::int32_t node) {
   Column column;
   column.node = node;
@@ -215,6 +237,7 @@ struct Groups {
 };
 
 /// `fineness`: steps by u.
+/// The midpoint rule on the stretch of a node, with 1 to kMostPlacesOfCell places.
 Column column_of(const PoseFit& fit, std::int32_t node, std::size_t touch, double fineness) {
   const PathTree::Node& at = fit.tree(touch).node(node);
   if (const RollBelief* roll = fit.touches()[touch].roll) return column_of_roll(*roll, at, node);
@@ -224,6 +247,7 @@ Column column_of(const PoseFit& fit, std::int32_t node, std::size_t touch, doubl
   column.node = node;
   column.step = at.u.width() / count;
   const double length = column.step * length_per_u(fit.path(touch), static_cast<std::size_t>(at.stretch));
+  // A corner that a point touches has no length: no places.
   if (!(length > 0)) return column;
   for (int k = 0; k < count; ++k) {
     column.places.push_back(at.u.lo + (k + 0.5) * column.step);
@@ -239,6 +263,7 @@ class Weigher {
   Weigher(PoseFit& fit, const CellSets& sets, std::size_t first_touch, std::size_t most_places)
       : fit_(fit), sets_(sets), first_(first_touch), most_places_(most_places), maker_(fit, first_touch) {}
 
+  /// Columns in order of the first touch's places; ends early where there are more places than asked for.
   Posterior posterior() {
     result_.owner.assign(sets_.groups.size(), Posterior::kNone);
     hopeless_ = hopeless_groups(fit_, sets_, first_);
@@ -248,6 +273,7 @@ class Weigher {
     Groups groups;
     while (groups.begin < sets_.groups.size() && !result_.is_too_long) {
       groups.end = groups.begin + 1;
+      // Groups are sorted by the first touch's place, so those of one stretch stand together.
       while (groups.end < sets_.groups.size() && node_of(groups.end) == node_of(groups.begin)) ++groups.end;
       add(groups);
       groups.begin = groups.end;
@@ -256,11 +282,13 @@ class Weigher {
   }
 
  private:
+  /// The first touch's node of a group: all of its cells have the same.
   std::int32_t node_of(std::size_t group) const { return sets_.cells[sets_.groups[group].front()].first; }
   PathPlace place_of(std::int32_t node, double u) const {
     return {static_cast<std::size_t>(fit_.tree(first_).node(node).stretch), u};
   }
 
+  /// All places of the column, for each group that is not hopeless. `known` is shared by its groups.
   void add(const Groups& groups) {
     column_ = column_of(fit_, node_of(groups.begin), first_, fineness(groups));
     for (std::size_t g = groups.begin; g < groups.end; ++g) {
@@ -273,6 +301,8 @@ class Weigher {
   }
 
   /// How fine the grid has to be on a stretch, by what is in its middle.
+  /// Steps by u: the most that any group asks for, by the sd of u or by how far a step moves the touches, and no more
+  /// than the first touch's own sd asks for. The fits are kept: one of them is the middle place's start.
   double fineness(const Groups& groups) {
     if (fit_.touches()[first_].roll != nullptr) return 0;
     const std::int32_t node = node_of(groups.begin);
@@ -293,6 +323,8 @@ class Weigher {
     return std::min(most, std::sqrt(own));
   }
 
+  /// Fits with the first touch held at place k, from each of the group's headings. A fit that ends where a known one
+  /// does makes its group the owner.
   void add_place(const Groups& groups, std::size_t group, std::size_t k) {
     const Held held{first_, place_of(column_.node, column_.places[k])};
     const KnownPose* goal = nullptr;
@@ -303,6 +335,7 @@ class Weigher {
     const bool is_middle = column_.step > 0 && 2 * k + 1 == column_.places.size();
     const std::vector<std::size_t>& cells = sets_.groups[group];
     for (const double heading : start_headings(sets_, cells)) {
+      // `fineness` has fitted from here already.
       if (is_middle && heading == sets_.cells[cells[cells.size() / 2]].heading.middle) {
         add_pose(groups, group, k, held, middles_[group - groups.begin]);
         continue;
@@ -316,6 +349,7 @@ class Weigher {
     }
   }
 
+  /// Whether some cell of a group has this heading.
   bool has_heading(std::size_t group, double heading) const {
     return std::any_of(sets_.groups[group].begin(), sets_.groups[group].end(), [&](std::size_t k) {
       const HeadingArc& arc = sets_.cells[k].heading;
@@ -332,6 +366,7 @@ class Weigher {
     return from;
   }
 
+  /// Adds a node, unless its pose or its mode is known at this place: each mode counts once.
   void add_pose(const Groups& groups, std::size_t from, std::size_t k, const Held& held, const FittedPose& best) {
     if (const KnownPose* known = find_known(fit_, best, column_.known[k])) {
       result_.owner[from] = known->group;
@@ -341,11 +376,13 @@ class Weigher {
     const auto same = std::find_if(column_.known[k].begin(), column_.known[k].end(),
                                    [&](const KnownPose& one) { return is_about(node, one.mode); });
     const bool is_new = same == column_.known[k].end();
+    // Of a new mode the group that holds its heading; of a known one that one's, so that nothing is counted twice.
     node.group = is_new ? home_of(best.pose.heading, groups, from) : same->group;
     if (node.group != from) result_.owner[from] = node.group;
     column_.known[k].push_back({best, node.pose, node.group});
     if (!is_new) return;
     node.log_weight = node.log_density + column_.log_weights[k];
+    // The node stands for a step of u: uniform on it, with variance step^2 / 12 along the way of the pose.
     if (column_.step > 0) {
       const Eigen::Vector3d along = column_.step * fit_.by_place(best, held).pose;
       node.covariance += fit_.at_origin(node.pose, along * along.transpose() / 12);
@@ -357,6 +394,7 @@ class Weigher {
   const CellSets& sets_;
   std::size_t first_;
   std::size_t most_places_;
+  // Of the first touch, looked at so far, with their groups.
   std::size_t places_ = 0;
   NodeMaker maker_;
   std::vector<bool> hopeless_;

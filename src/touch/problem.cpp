@@ -26,9 +26,11 @@ constexpr double kMostNormal = 4 * std::numbers::pi;
 constexpr double kMostNormalSd = BeliefOptions::kMostAngle;
 constexpr double kMostNormalTolerance = 0.5 * std::numbers::pi;
 
+/// Throws InputError.
 [[noreturn]] void refuse(const std::string& what) { throw InputError("touches: " + what); }
 
 /// `most`: beyond it the measurement says nothing.
+/// `where`, `what`: of the message; `cure`: how to state it.
 void require_sd(double sd, double most, const std::string& where, const char* what, const char* cure) {
   if (!(std::isfinite(sd) && sd > 0)) {
     refuse(fmt::format("{}: expected a standard deviation above 0 of {}, found {}; {}", where, what, sd, cure));
@@ -40,10 +42,14 @@ void require_sd(double sd, double most, const std::string& where, const char* wh
   }
 }
 
+/// A place, or a normal alone; both within what doubles and radians make sense of; with noise standard deviations of
+/// each.
 void require_touch(const TouchProblem& problem, std::size_t number) {
   const MeasuredTouch& touch = problem.touches[number];
+  // Numbers in messages begin at 1.
   const std::string where = fmt::format("touch {}", number + 1);
   const double far = kMostFar * problem.part.perimeter();
+  // NaN is not equal to itself: both coordinates NaN with a normal is a normal alone.
   if (!touch.has_place() && !(touch.at.x() != touch.at.x() && touch.at.y() != touch.at.y() && touch.normal)) {
     refuse(fmt::format("{}: expected a place, x and y, or a normal alone, found {}", where,
                        touch.normal ? "one of x and y" : "neither"));
@@ -58,6 +64,7 @@ void require_touch(const TouchProblem& problem, std::size_t number) {
   }
   if (!problem.noise) return;
   if (touch.has_place()) {
+    // A standard deviation beyond the perimeter leaves the place open.
     require_sd(touch.position_sd.value_or(problem.noise->position), problem.part.perimeter(), where, "its place",
                "give `noise` with position=SD");
   }
@@ -72,6 +79,7 @@ void require_a_place(const TouchProblem& problem) {
                                [](const MeasuredTouch& one) { return one.has_place(); }) ||
                    std::any_of(problem.rolls.begin(), problem.rolls.end(),
                                [](const Log& log) { return !log.fingers.front().x.empty(); });
+  // Rolls alone may tell only the heading: that is an answer, too.
   if (any || problem.touches.empty()) return;
   refuse("expected a place, x and y, of at least one contact, found normals alone, which leave open where the part is");
 }
@@ -85,6 +93,7 @@ void require_clear_beside_rolls(const TouchProblem& problem) {
   if (problem.rolls.size() + problem.touches.size() < 2) {
     refuse("`clear`: expected another roll or a touch beside one roll, found none: give one, or leave `clear` out");
   }
+  // A touch that has a place tells where the part is.
   if (!problem.touches.empty()) return;
   const bool any_centre = std::any_of(problem.rolls.begin(), problem.rolls.end(),
                                       [](const Log& roll) { return !roll.fingers.front().x.empty(); });
@@ -99,6 +108,7 @@ void require_clear_beside_rolls(const TouchProblem& problem) {
   }
 }
 
+/// NaN fails the comparison: it is refused as well.
 void require_clear(const TouchProblem& problem) {
   if (!problem.clear.empty() && !problem.rolls.empty()) require_clear_beside_rolls(problem);
   const double far = kMostFar * problem.part.perimeter();
@@ -128,6 +138,7 @@ void require_roll(const TouchProblem& problem, std::size_t number) {
     refuse(fmt::format("{}: expected the log of one finger on a part at rest, found one of two; solve each by itself",
                        where));
   }
+  // Lengths and turns alone tell no heading.
   if (log.kind != LogKind::contact) {
     refuse(
         fmt::format("{}: expected columns u and psi, which tell the heading that rolls share, found lengths and turns; "
@@ -137,6 +148,7 @@ void require_roll(const TouchProblem& problem, std::size_t number) {
   if (!problem.finger) refuse(fmt::format("{}: expected the finger, as in disk,r=R, found none", where));
 }
 
+/// Without noise. Rolls alone need none, touches one of length, normals one of angle.
 void require_tolerance(const TouchProblem& problem) {
   if (!problem.tolerance && problem.touches.empty() && !problem.pose) return;  // the rolls' digits tell it
   if (!problem.tolerance) {
@@ -146,6 +158,7 @@ void require_tolerance(const TouchProblem& problem) {
   }
   const TouchTolerance& tolerance = *problem.tolerance;
   const double most = problem.part.perimeter();
+  // Of rolls alone 0 is allowed.
   if (!problem.rolls.empty() && !(tolerance.angle >= 0)) {
     refuse(fmt::format("expected a `tolerance` of angles of at least 0, found {}", tolerance.angle));
   }
@@ -161,6 +174,7 @@ void require_tolerance(const TouchProblem& problem) {
                     "written 2deg",
                     kMostNormalTolerance, tolerance.angle));
   }
+  // Without noise there is no likelihood to weigh a prior against.
   if (problem.pose) {
     refuse(fmt::format("`{}` is weighed against noise: give `noise` as well",
                        std::isinf(problem.pose->place_sd) ? "heading" : "pose"));
@@ -169,6 +183,7 @@ void require_tolerance(const TouchProblem& problem) {
 
 }  // namespace
 
+/// In the order in which a reader would look: contacts, finger, noise or tolerance, each contact, paths.
 void require_valid(const TouchProblem& problem) {
   if (problem.touches.empty() && problem.rolls.empty()) refuse("expected at least one, found none");
   if (problem.finger) {
@@ -178,6 +193,7 @@ void require_valid(const TouchProblem& problem) {
     rollfix::require_valid(*problem.finger);
     require_no_corners({*problem.finger}, "several rolls and touches");
   }
+  // Of touches alone kinds of noise that only a roll has are refused.
   if (problem.noise) {
     if (problem.rolls.empty()) require_noise_of_touches(*problem.noise);
     if (!problem.rolls.empty()) rollfix::require_valid(*problem.noise);
@@ -191,6 +207,7 @@ void require_valid(const TouchProblem& problem) {
   require_clear(problem);
 }
 
+/// Of a finger that is no disk 0: then only rolls have it.
 double radius_of(const TouchProblem& problem) {
   return problem.finger && problem.finger->is_disk() ? problem.finger->disk()->radius : 0;
 }
@@ -208,8 +225,10 @@ bool have_own_noise(const std::vector<MeasuredTouch>& touches) {
 namespace rollfix::touch {
 namespace {
 
+/// Of all -v with v in the interval.
 Interval negative(const Interval& interval) { return {-interval.hi, -interval.lo}; }
 
+/// Lengths and turns run the other way, centres change the sign of x.
 void mirror(RollFacts& roll) {
   for (Vec2& centre : roll.track) centre.x() = -centre.x();
   for (double& length : roll.reading.length) length = -length;
@@ -217,6 +236,8 @@ void mirror(RollFacts& roll) {
   roll.searched = in_mirror(std::move(roll.searched));
 }
 
+/// (X, Y, phi) becomes (-X, Y, -phi): x and the heading change their signs in extents, intervals, means, densities and
+/// in the covariance.
 void mirror(TouchPose& pose) {
   pose.pose = {-pose.pose.x, pose.pose.y, -pose.pose.heading};
   for (std::array<Interval, 3>* one : {&pose.extent, &pose.interval}) {
@@ -237,6 +258,8 @@ void mirror(TouchPose& pose) {
 
 }  // namespace
 
+/// With noise units are standard deviations and tolerances kTouchSigmas of them, at most pi of an angle; without, both
+/// are the tolerances. Trees are set by AllContacts.
 std::vector<Measured> measured(const TouchProblem& problem) {
   std::vector<Measured> touches;
   for (const MeasuredTouch& touch : problem.touches) {
@@ -249,6 +272,7 @@ std::vector<Measured> measured(const TouchProblem& problem) {
     one.place_unit = problem.noise ? touch.position_sd.value_or(noise.position) : problem.tolerance->length;
     one.angle_unit = problem.noise ? touch.normal_sd.value_or(noise.angle) : problem.tolerance->angle;
     const double most = problem.noise ? kTouchSigmas : 1;
+    // Without a place nothing is too far.
     one.place_most = one.has_place ? most * one.place_unit : std::numeric_limits<double>::infinity();
     one.angle_most = std::min(most * one.angle_unit, std::numbers::pi);
     touches.push_back(one);
@@ -256,9 +280,11 @@ std::vector<Measured> measured(const TouchProblem& problem) {
   return touches;
 }
 
+/// All touches share one path and one tree. An empty path leaves them without: `one_fits_nowhere` says so.
 AllContacts::AllContacts(const TouchProblem& problem, double radius, std::vector<RollContact> of_rolls)
     : rolls(std::move(of_rolls)) {
   for (const RollContact& roll : rolls) each.push_back(roll.measured);
+  // Rolls alone need no path of a finger that touches.
   if (problem.touches.empty()) return;
   path.emplace(problem.part, radius);
   if (!path->stretches().empty()) tree.emplace(*path);
@@ -273,12 +299,15 @@ bool AllContacts::one_fits_nowhere() const {
          std::any_of(rolls.begin(), rolls.end(), [](const RollContact& roll) { return roll.fits_nowhere(); });
 }
 
+/// A direction a becomes pi - a, a place (-x, y).
 RollSearched in_mirror(RollSearched roll) {
   if (roll.at) roll.at->x() = -roll.at->x();
   roll.normal = nearest_angle(std::numbers::pi - roll.normal);
   return roll;
 }
 
+/// x = -x of all that was measured and of the prior; the part stays. Its mirror image in the world looks as the part
+/// does.
 TouchProblem in_mirror(const TouchProblem& problem) {
   TouchProblem result = problem;
   for (MeasuredTouch& touch : result.touches) {
@@ -289,12 +318,15 @@ TouchProblem in_mirror(const TouchProblem& problem) {
     path.from.x() = -path.from.x();
     path.to.x() = -path.to.x();
   }
+  // u and psi of all rows, and centres: of a mirrored roll.
   for (Log& roll : result.rolls) mirror(roll.fingers.front(), problem.finger ? &*problem.finger : nullptr);
+  // A finger with an outline is mirrored too; a disk of touches is its own image.
   if (result.finger && !result.rolls.empty()) result.finger = rollfix::mirrored(*problem.finger);
   if (result.pose) result.pose->mean = {-problem.pose->mean.x, problem.pose->mean.y, -problem.pose->mean.heading};
   return result;
 }
 
+/// Its own inverse.
 void out_of_mirror(TouchAnswer& answer) {
   for (TouchPose& pose : answer.poses) mirror(pose);
   for (RollFacts& roll : answer.rolls) mirror(roll);

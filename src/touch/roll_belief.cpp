@@ -37,11 +37,14 @@ constexpr double kSamePlace = 1e-9;
 // Three numbers together are beyond so many standard deviations as rarely as one is beyond kTouchSigmas.
 constexpr double kPoseSigmas = 5.2;
 
+/// p(s) + r n in the part's frame.
 Vec2 centre_at(const CentrePath& path, const PosePiece::End& end) {
   return path.part().point(end.s) + path.radius() * Vec2(std::sin(end.tangent), -std::cos(end.tangent));
 }
 
 /// Where a path has this place of the boundary.
+/// `is_corner`: on a pivot at this corner with this tangent, else on a stretch along a spiral. None: the path leaves it
+/// out.
 std::optional<PathPlace> find_place(const CentrePath& path, double s, double tangent, bool is_corner) {
   const Boundary boundary = path.part().boundary();
   const double slack = kSamePlace * path.part().perimeter();
@@ -62,6 +65,8 @@ std::optional<PathPlace> find_place(const CentrePath& path, double s, double tan
 }
 
 /// The centre's and the tangent's covariance at an end of a piece.
+/// The piece has that of the part's pose; the centre in the world moves by the arm R c from the pose's origin times
+/// dphi.
 Eigen::Matrix3d covariance_at(const CentrePath& path, const PosePiece::End& end) {
   Eigen::Matrix3d by = Eigen::Matrix3d::Identity();
   by.topRightCorner<2, 1>() = turned_left(end.pose.mean.turned(centre_at(path, end)));
@@ -73,6 +78,7 @@ class Placed {
  public:
   explicit Placed(const Pose& pose) : pose_(pose), cosine_(std::cos(pose.heading)), sine_(std::sin(pose.heading)) {}
 
+  /// e_j of the notation; the turn modulo 2 pi.
   Eigen::Vector3d miss_of(const RollNode& node) const {
     const Vec2& centre = node.point.centre;
     const double turn = node.tangent - node.point.angle - pose_.heading;
@@ -92,6 +98,7 @@ class Placed {
   double sine_;
 };
 
+/// Of one node alone.
 Eigen::Vector3d miss_of(const RollNode& node, const Pose& pose) { return Placed(pose).miss_of(node); }
 
 /// How the residual changes along the boundary.
@@ -102,6 +109,7 @@ Eigen::Vector3d by_place(const RollNode& node, const Pose& pose) {
 
 }  // namespace
 
+/// Nodes in order of their places; `log_density` is made a share of the largest, so at most 0.
 RollBelief::RollBelief(const CentrePath& path, const std::vector<PosePiece>& pieces, RollCentre centre)
     : path_(path), centre_(centre) {
   for (const PosePiece& piece : pieces) add(piece);
@@ -119,6 +127,8 @@ RollBelief::RollBelief(const CentrePath& path, const std::vector<PosePiece>& pie
 }
 
 /// How the density changes from node to node.
+/// By the divided differences of the nodes before and behind. At an end of a run of nodes the slope and the bend stay
+/// 0.
 void RollBelief::add_slopes() {
   const auto joined = [&](std::size_t k) {  // with the next one
     if (k + 1 >= nodes_.size() || nodes_[k].place.stretch != nodes_[k + 1].place.stretch) return false;
@@ -135,10 +145,13 @@ void RollBelief::add_slopes() {
     const double before = (node.log_density - last.log_density) / (node.place.u - last.place.u);
     const double behind = (next.log_density - node.log_density) / (next.place.u - node.place.u);
     node.density_slope = -0.5 * (before + behind);
+    // Only where the density is concave: else `slide` has no minimum.
     node.density_bend = std::max(0.0, -(behind - before) / (0.5 * (next.place.u - last.place.u)));
   }
 }
 
+/// In so many nodes that from one to the next neither the heading nor the centre moves by more than a standard
+/// deviation, nor the density by more than a factor e.
 void RollBelief::add(const PosePiece& piece) {
   // How far apart its ends are, by what they say.
   const double heading = nearest_angle(piece.hi.pose.mean.heading - piece.lo.pose.mean.heading);
@@ -155,6 +168,8 @@ void RollBelief::add(const PosePiece& piece) {
   }
 }
 
+/// The share of the piece from `from` to `to`, in [0, 1]: means at its middle, by linear interpolation between the
+/// ends.
 void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, const PosePiece::End& hi, double from,
                           double to) {
   const double share = 0.5 * (from + to);
@@ -169,13 +184,16 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
   RollNode node;
   node.place = *place;
   node.point = path_.at(*place);
+  // In the world: the part's heading and the tangent in its own frame.
   const double first_tangent = lo.pose.mean.heading + lo.tangent;
   const double last_tangent = hi.pose.mean.heading + hi.tangent;
   node.tangent = first_tangent + share * nearest_angle(last_tangent - first_tangent);
   node.at = (1 - share) * lo.pose.mean.world(centre_at(path_, lo)) + share * hi.pose.mean.world(centre_at(path_, hi));
+  // A grain on the diagonal keeps it regular, and makes a reference's centre exact.
   Eigen::Matrix3d covariance = 0.5 * (covariance_at(path_, lo) + covariance_at(path_, hi));
   const double grain = (centre_ == RollCentre::reference ? kReference : kLeastCentre) * path_.part().perimeter();
   covariance.diagonal() += Eigen::Vector3d(grain * grain, grain * grain, kLeastAngle * kLeastAngle);
+  // The marginal of the tangent: rows of the centre stay 0.
   if (centre_ == RollCentre::unused) {
     node.information(2, 2) = 1 / covariance(2, 2);
     node.log_peak = 0.5 * std::log(node.information(2, 2));
@@ -185,9 +203,11 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
     node.log_peak = -0.5 * solver.vectorD().array().log().sum();
   }
   node.heading_information = 1 / covariance(2, 2);
+  // The density of a piece grows as exp(rise t), t in [0, 1]: the share of its mass between `from` and `to`.
   const double rise = piece.rise;
   const double part =
       std::abs(rise) < 1e-9 ? to - from : std::exp(rise * from) * std::expm1(rise * (to - from)) / std::expm1(rise);
+  // A pivot is worth r per radian; of a point, where it has no length, P / (2 pi).
   const double pivot = path_.radius() > 0 ? path_.radius() : path_.part().perimeter() / kFullTurn;
   const double length = is_corner ? pivot * std::abs(hi.tangent - lo.tangent) : hi.s - lo.s;
   node.width = (is_corner ? std::abs(hi.tangent - lo.tangent) : hi.s - lo.s) * (to - from);
@@ -197,6 +217,7 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
   if (std::isfinite(node.log_weight) && std::isfinite(node.log_peak)) nodes_.push_back(node);
 }
 
+/// By bisection, as nodes are in order of stretch and u.
 std::pair<std::size_t, std::size_t> RollBelief::nodes_in(std::size_t stretch, const Interval& u) const {
   const auto before = [](const RollNode& node, const PathPlace& place) {
     return std::tie(node.place.stretch, node.place.u) < std::tie(place.stretch, place.u);
@@ -213,12 +234,15 @@ const RollNode& RollBelief::at(const PathPlace& place) const {
   return nodes_[nodes_in(place.stretch, {place.u, place.u}).first];
 }
 
+/// e_j = 0: phi = t_j - a(u_j), X = c_j - R(phi) o(u_j).
 Pose RollBelief::pose_at(const RollNode& node) const {
   Pose pose{0, 0, node.tangent - node.point.angle};
   const Vec2 place = node.at - pose.turned(node.point.centre);
   return {place.x(), place.y(), pose.heading};
 }
 
+/// Over all nodes, from the last answer on, which gives a small bound. The heading's square alone is a lower bound of
+/// e^T Q e, its information being that of the marginal.
 const RollNode& RollBelief::nearest(const Pose& pose) const {
   const Placed placed(pose);
   std::size_t best = nearest_;
@@ -237,6 +261,7 @@ const RollNode& RollBelief::nearest(const Pose& pose) const {
   return nodes_[best];
 }
 
+/// A step past the last node is to the first one; ends where both neighbours fit worse.
 const RollNode& RollBelief::downhill(const Pose& pose, const RollNode& from) const {
   const Placed placed(pose);
   auto best = static_cast<std::size_t>(&from - nodes_.data());
@@ -255,11 +280,13 @@ const RollNode& RollBelief::downhill(const Pose& pose, const RollNode& from) con
 
 Eigen::Vector3d RollBelief::residual(const Pose& pose, const RollNode& node) const { return miss_of(node, pose); }
 
+/// How dense the belief is does not count: the miss alone, after the slide within the node.
 double RollBelief::worst(const Pose& pose, const RollNode& node) const {
   const double miss = std::max(0.0, square(pose, node, true) + 2 * node.log_density);
   return std::sqrt(miss) / (centre_ == RollCentre::unused ? kTouchSigmas : kPoseSigmas);
 }
 
+/// One Gauss-Newton step along the path, clamped to half the node's width. The residual is linear in u there.
 RollBelief::Slide RollBelief::slide(const Pose& pose, const RollNode& node) const {
   const Eigen::Vector3d off = miss_of(node, pose);
   const Eigen::Vector3d by = by_place(node, pose);
@@ -270,6 +297,7 @@ RollBelief::Slide RollBelief::slide(const Pose& pose, const RollNode& node) cons
   if (weight > 0) {
     const double wanted = slope / weight;
     slide.by = std::clamp(wanted, -0.5 * node.width, 0.5 * node.width);
+    // At an inner node a clamped step is free as well: the next node goes on from there.
     slide.is_free = slide.by == wanted || (wanted < 0 ? !node.ends_before : !node.ends_behind);
   }
   // Between nodes the density is about what a parabola makes of it.
@@ -284,8 +312,11 @@ double RollBelief::square(const Pose& pose, const RollNode& node, bool slides) c
   return off.dot(node.information * off) - 2 * node.log_density;
 }
 
+/// J^T Q J and -J^T Q e. `slides`: with u eliminated by the Schur complement, as M of pose_fit.cpp, with the belief's
+/// own slope and bend.
 Normals RollBelief::normals(const Pose& pose, const RollNode& node, const Vec2& about, bool slides) const {
   Eigen::Matrix3d by_step = Eigen::Matrix3d::Identity();
+  // A turn about `about` moves the node's centre by its arm from there.
   by_step.topRightCorner<2, 1>() = turned_left(pose.world(node.point.centre) - about);
   const Eigen::Vector3d off = miss_of(node, pose);
   Eigen::Matrix3d information = node.information;
@@ -302,6 +333,7 @@ Normals RollBelief::normals(const Pose& pose, const RollNode& node, const Vec2& 
   return normals;
 }
 
+/// L = sum_j p_j N(e_j; Q_j), and its log's derivatives as tilted_touch.cpp has them: slope E g, matrix E M - Cov g.
 TiltedTouch RollBelief::tilted(const Pose& pose, const Vec2& about) const {
   constexpr double kNothing = 40;  // exp(-40) of the largest
   const Placed placed(pose);
@@ -315,6 +347,7 @@ TiltedTouch RollBelief::tilted(const Pose& pose, const Vec2& about) const {
   double sum = 0;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    // Such a node adds nothing.
     if (!(logs_[k] > most - kNothing)) continue;
     const double weight = std::exp(logs_[k] - most);
     const Normals one = normals(pose, nodes_[k], about, false);

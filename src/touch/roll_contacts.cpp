@@ -42,13 +42,16 @@ constexpr double kAtCorner = 1e-9;
 // A place of the boundary where the belief is less than exp(-this) of its largest has next to nothing of it.
 constexpr double kLeastDensity = 25;
 
+/// The log has columns x and y.
 bool has_centres(const Log& log) { return !log.fingers.front().x.empty(); }
 
 /// Whether the contact's place is evidence, by the problem.
+/// With noise only if `position` is stated.
 bool places_count(const TouchProblem& problem, const Log& log) {
   return has_centres(log) && (!problem.noise || problem.noise->position > 0);
 }
 
+/// Arcs in order that do not overlap; those nearer to each other than rounding are one. lo in [0, P), hi may exceed P.
 std::vector<Interval> merged(std::vector<Interval> arcs, const Boundary& boundary) {
   const double slack = kArcRounding * boundary.perimeter;
   std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
@@ -61,6 +64,7 @@ std::vector<Interval> merged(std::vector<Interval> arcs, const Boundary& boundar
     }
   }
   // Across the start of a closed boundary.
+  // The last arc reaches past P into the first one.
   while (boundary.closed && result.size() > 1 && result.back().hi + slack >= boundary.perimeter + result.front().lo) {
     result.back().hi = std::max(result.back().hi, boundary.perimeter + result.front().hi);
     result.erase(result.begin());
@@ -70,9 +74,11 @@ std::vector<Interval> merged(std::vector<Interval> arcs, const Boundary& boundar
 
 /// By how much the worst of a roll's readings is off if it starts there, radians; none: a contact at a corner, where
 /// that depends on the pivot, or beyond an end.
+/// max |Theta(s + l_j) - Theta(s) - t_j| over all readings.
 std::optional<double> off_from(const Answer& alone, double s) {
   const Boundary boundary = alone.part.boundary();
   const double slack = kAtCorner * boundary.perimeter;
+  // Within an open outline, and not at a corner.
   const auto is_clear = [&](double at) {
     if (!boundary.closed && !(at >= 0 && at <= boundary.perimeter)) return false;
     return std::none_of(alone.part.corners().begin(), alone.part.corners().end(),
@@ -90,6 +96,8 @@ std::optional<double> off_from(const Answer& alone, double s) {
 }
 
 /// An extent encloses what fits: this is it without what is off by more than the tolerance at its ends.
+/// Bisection of either end against the placement's own start. A place at a corner counts as one that fits. Where the
+/// start itself does not fit by this test, the extent stays.
 Interval arc_of(const Answer& alone, const Placement& placement) {
   constexpr int kTrims = 50;
   Interval arc = placement.extent[0];
@@ -101,6 +109,7 @@ Interval arc_of(const Answer& alone, const Placement& placement) {
   if (alone.part.closed() && inside < arc.lo) inside += alone.part.perimeter();
   if (!(inside >= arc.lo && inside <= arc.hi && fits(inside))) return arc;
   for (double* end : {&arc.lo, &arc.hi}) {
+    // `fitting` fits, `*end` does not: halved until the end fits, or at last is the place that does.
     double fitting = inside;
     for (int k = 0; k < kTrims && !fits(*end); ++k) {
       const double middle = 0.5 * (fitting + *end);
@@ -112,9 +121,11 @@ Interval arc_of(const Answer& alone, const Placement& placement) {
 }
 
 /// Where the roll can have started, by itself: what all of its rows agree with, where there is any.
+/// What the search of the roll alone left undecided is kept as well, so that no place is lost.
 std::vector<Interval> arcs_alone(const Answer& alone) {
   const double slack = kArcRounding * alone.part.perimeter();
   const std::vector<Corner>& corners = alone.part.corners();
+  // Placements that other rows contradict count only where all are contradicted.
   const bool any_agrees = std::any_of(alone.placements.begin(), alone.placements.end(),
                                       [](const Placement& placement) { return !placement.is_contradicted; });
   std::vector<Interval> arcs;
@@ -133,6 +144,8 @@ std::vector<Interval> arcs_alone(const Answer& alone) {
 }
 
 /// The tangent's angles at a corner with which a roll that starts there has turned as all of its readings say.
+/// Of a start at the corner s with pivot a: Theta(s + l_j) - a = t_j, where the end may be at a corner as well and
+/// Theta takes every value between its sides. `angles`: all pivots there; lo above hi: none is left.
 Interval pivots_alone(const Answer& alone, double s, const Interval& angles) {
   const TurningFunction& turning = alone.part.turning();
   const double slack = kArcRounding * alone.part.perimeter();
@@ -148,6 +161,7 @@ Interval pivots_alone(const Answer& alone, double s, const Interval& angles) {
 }
 
 /// The belief's pieces but for those from where the finger can't roll so.
+/// `impossible` has placements out of the finger's reach: the mode around each is left out.
 std::vector<PosePiece> possible_pieces(Belief& belief, const Answer& alone) {
   const Boundary boundary = alone.part.boundary();
   std::vector<Interval> barred;
@@ -165,6 +179,7 @@ std::vector<PosePiece> possible_pieces(Belief& belief, const Answer& alone) {
   return pieces;
 }
 
+/// lo in [0, P); a piece within a corner is a point.
 std::vector<Interval> arcs_of(const std::vector<PosePiece>& pieces, const Boundary& boundary) {
   std::vector<Interval> arcs;
   for (const PosePiece& piece : pieces) {
@@ -176,9 +191,12 @@ std::vector<Interval> arcs_of(const std::vector<PosePiece>& pieces, const Bounda
 
 /// The direction of the part's tangent in the world at the first contact, and where the finger's centre was (of a disk)
 /// or the contact.
+/// Sets `tangent` and, if the log has centres, `at`. `radius`: of a disk; 0: another finger, whose contact is at its
+/// centre less the centre's offset from a contact at the origin.
 void measure_first(const Log& log, const Finger& finger, double radius, Measured& measured) {
   const FingerRows& rows = log.fingers.front();
   const Contact first = contacts_of(rows, finger).front();
+  // `facing` points into the part: the tangent is that + pi (the outward normal) + pi / 2.
   measured.tangent = facing(finger, first) - 0.5 * std::numbers::pi;
   if (!has_centres(log)) return;
   measured.at = Vec2(rows.x.front(), rows.y.front());
@@ -186,6 +204,8 @@ void measure_first(const Log& log, const Finger& finger, double radius, Measured
 }
 
 /// With noise: an arc of each that holds what the nodes say, and the tolerance of the search beyond.
+/// The middle of all nodes' means and, beyond half their range, kTouchSigmas of the largest standard deviation: the
+/// search holds every node. Nodes of no weight are left out.
 void measure_belief(const RollBelief& belief, Measured& measured) {
   Vec2 least(1e300, 1e300), most(-1e300, -1e300);
   double before = 0, behind = 0, place_sd = 0, angle_sd = 0;
@@ -194,6 +214,7 @@ void measure_belief(const RollBelief& belief, Measured& measured) {
     if (node.log_density < -kLeastDensity) continue;
     least = least.cwiseMin(node.at);
     most = most.cwiseMax(node.at);
+    // Tangents are unwrapped about the first node's.
     const double off = nearest_angle(node.tangent - about);
     before = std::min(before, off);
     behind = std::max(behind, off);
@@ -215,6 +236,7 @@ void measure_belief(const RollBelief& belief, Measured& measured) {
 }
 
 /// How far centres may be off, as far as their digits show.
+/// Length: the stated tolerance, or what the digits of x and y, of the other columns and of the outline leave.
 double place_tolerance(const TouchProblem& problem, const Log& log, const Finger& finger) {
   if (problem.tolerance && problem.tolerance->length > 0) return problem.tolerance->length;
   std::vector<double> coordinates;  // a single column may be whole numbers by chance: along a side that is an axis
@@ -227,6 +249,7 @@ double place_tolerance(const TouchProblem& problem, const Log& log, const Finger
   return digits + rounding_of(log, {finger}).length + kLeastPlace * problem.part.perimeter();
 }
 
+/// Without noise, of a roll of several rows. Units are the tolerances themselves.
 void measure_exactly(const TouchProblem& problem, const Log& log, RollContact& contact) {
   Measured& measured = contact.measured;
   // Two headings differ by no more than the facing of two rolls may be off.
@@ -236,6 +259,8 @@ void measure_exactly(const TouchProblem& problem, const Log& log, RollContact& c
 }
 
 /// How far a single row may be off: the contact's place in the world, of a disk its centre, and its normal.
+/// With noise: the angle's sd is that of u + psi, with the contact's noise turned into an angle by the finger's
+/// curvature.
 void measure_touch(const TouchProblem& problem, const Log& log, Measured& measured) {
   const Finger& finger = *problem.finger;
   if (!problem.noise) {
@@ -250,6 +275,7 @@ void measure_touch(const TouchProblem& problem, const Log& log, Measured& measur
   measured.angle_unit = std::max(std::hypot(noise.angle, finger.curvature(first.u) * noise.contact), kLeastNormal);
   measured.place_unit = noise.position;
   if (!finger.is_disk()) {  // of a disk the centre is what was measured
+    // Of another finger the contact is computed from the centre, by the angle and by where on the finger it is.
     const double arm = centre_of(finger, Vec2::Zero(), first).norm();
     measured.place_unit = std::hypot(noise.position, noise.contact, arm * noise.angle);
   }
@@ -258,6 +284,7 @@ void measure_touch(const TouchProblem& problem, const Log& log, Measured& measur
 }
 
 /// Of one row: it can be anywhere on the part.
+/// The path of a contact on all of the part; nothing is known of it alone.
 RollContact touch_of(const TouchProblem& problem, const Log& log, RollCentre centre) {
   const double radius = problem.finger->is_disk() ? problem.finger->disk()->radius : 0;
   RollContact contact{Answer{problem.part}, {}, {}, {}, {}, {}};
@@ -271,12 +298,14 @@ RollContact touch_of(const TouchProblem& problem, const Log& log, RollCentre cen
   measured.tree = contact.tree.get();
   measure_first(log, *problem.finger, radius, measured);
   measure_touch(problem, log, measured);
+  // No evidence: a place that may be off by the perimeter says nothing.
   if (centre == RollCentre::evidence) return contact;
   measured.place_unit = measured.place_most = problem.part.perimeter();
   return contact;
 }
 
 /// To its arcs.
+/// Builds the path and the tree of a contact within its arcs.
 void confine(RollContact& contact, const Part& part, double radius) {
   contact.confined.arcs = merged(std::move(contact.confined.arcs), part.boundary());
   contact.path = std::make_unique<CentrePath>(part, radius, &contact.confined);
@@ -284,6 +313,7 @@ void confine(RollContact& contact, const Part& part, double radius) {
   if (!contact.path->stretches().empty()) contact.tree = std::make_unique<PathTree>(*contact.path);
 }
 
+/// Solves the roll alone, then confines it: with noise to where its belief has mass, else to where its readings fit.
 RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre centre) {
   if (log.rows() == 1) return touch_of(problem, log, centre);
   const Problem single = alone(problem, log);
@@ -296,6 +326,7 @@ RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre c
   measure_first(used, *problem.finger, radius, contact.measured);
   if (problem.noise) {
     std::optional<Belief> belief = believe(single, observe(single));
+    // By the stated noise, not a wider one.
     contact.log_evidence = belief->evidence().with(1);
     const std::vector<PosePiece> pieces = possible_pieces(*belief, contact.alone);
     contact.confined.arcs = arcs_of(pieces, problem.part.boundary());
@@ -306,6 +337,7 @@ RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre c
     confine_by_readings(contact, problem.part, radius);
     measure_exactly(problem, used, contact);
   }
+  // Where the part is follows from this contact, but the search learns nothing from it.
   if (centre == RollCentre::reference) {
     contact.measured.has_place = true;
     contact.measured.place_unit = contact.measured.place_most = problem.part.perimeter();
@@ -317,6 +349,7 @@ RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre c
 }
 
 /// Without noise rows all along the roll are searched with, so that what one of them contradicts is gone.
+/// As many as kInstants, evenly over the rows; a log without times gets row numbers for times.
 void add_instants(Problem& single) {
   Log& log = *single.measured.log;
   if (log.time.empty()) {
@@ -324,18 +357,22 @@ void add_instants(Problem& single) {
   }
   const std::size_t last = log.rows() - 1;
   const std::size_t count = std::min(last, kInstants);
+  // The last of them is the last row.
   for (std::size_t k = 1; k <= count; ++k) single.at.push_back(log.time[k * last / count]);
 }
 
 }  // namespace
 
+/// The prior of the pose counts for a roll only if nothing else is solved with it: else it would count twice.
 Problem alone(const TouchProblem& problem, const Log& log) {
   Problem single{problem.part, log, {*problem.finger}, problem.noise};
+  // Without centres their noise has no meaning.
   if (problem.noise && !has_centres(log)) single.noise->position = 0;
   if (problem.tolerance) single.tolerance = problem.tolerance->angle;
   if (problem.rolls.size() + problem.touches.size() == 1) single.pose = problem.pose;
   single.robust = problem.robust;
   single.diagnose = false;
+  // Rows that are outliers of the roll alone are left out before.
   if (single.robust) single.measured.log = without_strays(log, problem.part, single.fingers, *problem.noise);
   if (!problem.noise && problem.rolls.size() + problem.touches.size() > 1) add_instants(single);
   return single;
@@ -348,6 +385,7 @@ std::vector<RollContact> roll_contacts(const TouchProblem& problem) {
                                      [&](const Log& log) { return places_count(problem, log); });
   std::vector<RollContact> contacts;
   for (const Log& log : problem.rolls) {
+    // Where no place is evidence, poses are counted from the first roll's first contact.
     const bool is_reference = !any_place && contacts.empty();
     const bool counts = places_count(problem, log);
     contacts.push_back(contact_of(problem, log,
@@ -364,6 +402,7 @@ void confine_by_readings(RollContact& contact, const Part& part, double radius) 
   confine(contact, part, radius);
 }
 
+/// `searched`: what a certificate needs to repeat the search.
 RollFacts facts_of(const RollContact& contact, const Log& log) {
   const std::vector<std::size_t>& line = log.fingers.front().line;
   RollFacts facts;

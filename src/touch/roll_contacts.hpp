@@ -16,6 +16,7 @@
 namespace rollfix::touch {
 
 /// A roll as a contact: its first one, on what its readings leave of the boundary.
+/// `measured` points to `tree` and `belief`, which stay where they are when a contact is moved.
 struct RollContact {
   Answer alone;  // without the other contacts
   Confined confined;
@@ -62,9 +63,11 @@ struct HeadingSets {
   std::size_t comparisons = 0;
 };
 
+/// `budget`: sets of stretches; no more than 200,000 are compared.
 HeadingSets heading_sets(const std::vector<Measured>& contacts, std::size_t budget);
 
 /// Says where rolls end.
+/// Sets `end` and `extent` of rolls' contacts in all poses; `contacts`: of the search, rolls first.
 void add_roll_ends(const std::vector<RollContact>& rolls, const std::vector<Measured>& contacts, TouchAnswer& answer);
 
 /// What was not decided of a roll is not decided of all contacts, and rows that fit badly fit no better together.

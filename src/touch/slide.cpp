@@ -25,6 +25,7 @@ namespace rollfix::touch {
 namespace {
 
 // Of touches so many are enough: fewer bounds leave no pose out.
+// Corners are tried for all triples of bounds, which grow with the cube of this.
 constexpr std::size_t kMostSides = 12;
 // theta^2 shrinks with what theta can be; this often it is looked at again.
 constexpr int kRounds = 3;
@@ -33,12 +34,14 @@ constexpr double kParallelPlanes = 1e-13;
 constexpr double kRoundingOfBounds = 1e-9;
 
 /// |offset + by . z| <= most.
+/// A slab of poses z = (dy, theta).
 struct Bound {
   Eigen::Vector3d by = Eigen::Vector3d::Zero();
   double offset = 0;
   double most = 0;
 
   double at(const Eigen::Vector3d& z) const { return offset + by.dot(z); }
+  /// The same slab with a unit normal: `most` is a distance then.
   Bound scaled() const { return {by / by.norm(), offset / by.norm(), most / by.norm()}; }
 };
 
@@ -50,20 +53,25 @@ struct Side {
   Vec2 arm = Vec2::Zero();  // w_i
   Interval rest;            // of the side, along it from c_i
   double most = 0;          // delta_i
+  // Of the path, that the side is on, and c_i:
   std::int32_t stretch = -1;
   Vec2 centre = Vec2::Zero();
 
   /// `bend`: theta^2 / 2.
   Bound across(double bend) const { return {towards(out), out.dot(off), most + bend * arm.norm()}; }
+  /// Not a bound but a value: the place of the touch along its side, from c_i.
   Bound ahead() const { return {towards(along), along.dot(off), 0}; }
 
  private:
+  /// d/dz of direction . (dy - theta J w): J turns by 90 degrees counter-clockwise.
   Eigen::Vector3d towards(const Vec2& direction) const {
     return {direction.x(), direction.y(), -direction.dot(turned_left(arm))};
   }
 };
 
 /// Corners of what the bounds leave.
+/// Vertices of the polytope: each is where three planes meet, on one side or the other of their slabs, and no bound is
+/// broken. O(n^4) for n bounds. Empty: nothing is left.
 std::vector<Eigen::Vector3d> corners_of(std::vector<Bound> bounds) {
   for (Bound& bound : bounds) bound = bound.scaled();
   const auto fits = [&](const Eigen::Vector3d& z) {
@@ -80,6 +88,7 @@ std::vector<Eigen::Vector3d> corners_of(std::vector<Bound> bounds) {
         if (std::abs(planes.determinant()) <= kParallelPlanes) continue;
         const Eigen::Matrix3d inverse = planes.inverse();
         for (int signs = 0; signs < 8; ++signs) {
+          // by . z at the slab's upper or lower plane.
           const auto end = [&](const Bound& bound, int bit) {
             return ((signs >> bit & 1) != 0 ? bound.most : -bound.most) - bound.offset;
           };
@@ -92,6 +101,7 @@ std::vector<Eigen::Vector3d> corners_of(std::vector<Bound> bounds) {
   return corners;
 }
 
+/// A linear function takes its extremes at corners. Of no corners: lo above hi.
 Interval range_of(const Bound& value, const std::vector<Eigen::Vector3d>& corners) {
   Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Eigen::Vector3d& z : corners) {
@@ -102,6 +112,7 @@ Interval range_of(const Bound& value, const std::vector<Eigen::Vector3d>& corner
 }
 
 /// The stretch of the path that a contact is on, if it is no corner.
+/// At a corner's s it is a side next to it; `stays` then finds that the side has no room.
 std::optional<std::size_t> stretch_at(const CentrePath& path, double s) {
   for (std::size_t k = 0; k < path.stretches().size(); ++k) {
     const CentreStretch& stretch = path.stretches()[k];
@@ -111,6 +122,7 @@ std::optional<std::size_t> stretch_at(const CentrePath& path, double s) {
 }
 
 /// Whether any centre on another stretch is this near to a segment.
+/// Branch and bound over the tree; a node that is too short to be halved counts as near. `near`: length.
 bool is_near_another(PathTree& tree, std::int32_t own, const Vec2& from, const Vec2& to, double near) {
   const auto distance = [&](const Vec2& point) {
     const Vec2 along = to - from;
@@ -133,6 +145,7 @@ bool is_near_another(PathTree& tree, std::int32_t own, const Vec2& from, const V
 }
 
 /// The touches beside the sides that a pose has them at; nothing if one is at a corner.
+/// `middle`: q_0. Touches without a place hold nothing and are left out.
 std::optional<std::vector<Side>> sides_of(const TouchAnswer& answer, const TouchPose& pose, const CentrePath& path,
                                           const Vec2& middle) {
   const Pose back{0, 0, -pose.pose.heading};
@@ -158,6 +171,7 @@ std::optional<std::vector<Side>> sides_of(const TouchAnswer& answer, const Touch
   return sides;
 }
 
+/// REQUIRES a touch with a place.
 Vec2 middle_of(const std::vector<MeasuredTouch>& touches) {
   Vec2 sum = Vec2::Zero();
   double count = 0;
@@ -171,6 +185,7 @@ Vec2 middle_of(const std::vector<MeasuredTouch>& touches) {
 
 /// What the sides leave, and no more than `turn` of a heading, which becomes what they leave of that; `far`: of the
 /// rest.
+/// Round by round a smaller turn makes theta^2 / 2 smaller, and with it what each side leaves.
 std::vector<Eigen::Vector3d> left_by(const std::vector<Side>& sides, double far, double& turn) {
   std::vector<Eigen::Vector3d> corners;
   for (int round = 0; round < kRounds; ++round) {
@@ -185,6 +200,7 @@ std::vector<Eigen::Vector3d> left_by(const std::vector<Side>& sides, double far,
 }
 
 /// Whether a touch stays beside its side, where no other is near, in all that is left.
+/// Then its bound holds in all poses of the polytope, so that no pose of the set is outside of it.
 bool stays(const Side& side, PathTree& tree, const std::vector<Eigen::Vector3d>& corners, double turn) {
   const Interval ahead = range_of(side.ahead(), corners);
   const double slack = 0.5 * turn * turn * side.arm.norm() + side.most;
@@ -197,6 +213,7 @@ bool stays(const Side& side, PathTree& tree, const std::vector<Eigen::Vector3d>&
 /// How far apart poses of a set can be along a direction, where the touches are on straight sides whose directions
 /// differ a little: these hold the part before any touch comes to the end of its side. Nothing where one may come
 /// there, with noise, of a part face down or with rolls.
+/// Length, an upper bound.
 std::optional<double> slide_between_sides(const TouchAnswer& answer, const TouchPose& pose, double direction) {
   if (answer.noise || answer.mirrored || !answer.rolls.empty() || answer.touches.empty()) return std::nullopt;
   const CentrePath path(answer.part, answer.radius);
@@ -207,13 +224,16 @@ std::optional<double> slide_between_sides(const TouchAnswer& answer, const Touch
   const Vec2 toward = back.turned({std::cos(direction), std::sin(direction)});
   const Vec2 arm = back.turned(middle - Vec2(pose.pose.x, pose.pose.y));  // from the drawing's origin
   double turn = std::max(pose.extent[2].hi - pose.pose.heading, pose.pose.heading - pose.extent[2].lo);
+  // A box of dy and theta that holds all poses of the extent, so that the polytope is bounded.
   const double far = std::hypot(pose.extent[0].width(), pose.extent[1].width()) + turn * arm.norm();
   const std::vector<Eigen::Vector3d> corners = left_by(*sides, far, turn);
   PathTree tree(path);
   const auto is_held = [&](const Side& side) { return stays(side, tree, corners, turn); };
   if (corners.empty() || !std::all_of(sides->begin(), sides->end(), is_held)) return std::nullopt;
+  // By how far a pose moves q_0 at most: terms of second order in the turn are added to the width.
   double moved = 0;
   for (const Eigen::Vector3d& z : corners) moved = std::max(moved, z.head<2>().norm());
+  // By how much the drawing's origin moves along the direction.
   const Bound origin{{toward.x(), toward.y(), toward.dot(turned_left(arm))}, 0, 0};
   return range_of(origin, corners).width() + 2 * turn * moved + turn * turn * arm.norm();
 }

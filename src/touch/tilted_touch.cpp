@@ -36,8 +36,11 @@ constexpr double kTried = 3;
 constexpr double kEvenPart = 0.1;
 constexpr double kOddPart = 0.1;
 
+/// The integral by quadrature: from the nearest place outwards both ways, or of a normal alone over all of the
+/// boundary.
 class Integral {
  public:
+  /// `nearest`: its square is taken out, so that no weight underflows.
   Integral(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest)
       : path_(fit.path(touch)), frame_(fit.frame(pose)), touch_(fit.in_part(pose, touch)) {
     least_ = distance_at(path_.at(nearest), touch_).square;
@@ -49,6 +52,7 @@ class Integral {
     go(nearest, false);
   }
 
+  /// Slope E g; matrix E M - Cov g, with Cov g = E g g^T - E g E g^T.
   TiltedTouch result() const {
     TiltedTouch result;
     if (!(sum_ > 0)) {  // a corner that has no length, and nothing near it has
@@ -62,12 +66,15 @@ class Integral {
   }
 
  private:
+  /// Panel by panel along the boundary until the squares are kNothing above the least and rising, the boundary ends,
+  /// half a lap is gone (the other half is the other direction's), or there are too many panels.
   void go(PathPlace from, bool forwards) {
     const double half_lap = 0.5 * path_.part().perimeter();
     double gone = 0;
     for (int panels = 0; panels < kMostPanels && gone <= half_lap; ++panels) {
       const CentreStretch& stretch = path_.stretches()[from.stretch];
       const double end = forwards ? stretch.u.hi : stretch.u.lo;
+      // On to the next stretch; at a corner without length at once.
       if (from.u == end || (stretch.corner && path_.radius() == 0)) {
         const std::optional<std::size_t> next = forwards ? stretch.after : stretch.before;
         if (!next) return;
@@ -78,6 +85,7 @@ class Integral {
       const Distance here = distance_at(path_.at(from), touch_);
       const double rising = forwards ? -here.slope : here.slope;
       if (here.square > least_ + kNothing && rising >= 0) return;
+      // Weight v^T v is the information of u: 1 / sqrt of it is the standard deviation.
       const double most = here.weight > 0 ? kPanel / std::sqrt(here.weight) : stretch.u.width();
       const double to = forwards ? std::min(end, from.u + most) : std::max(end, from.u - most);
       const double length = length_per_u(path_, from.stretch);
@@ -94,6 +102,7 @@ class Integral {
       const std::int32_t index = waiting.back();
       waiting.pop_back();
       const PathTree::Node node = tree.node(index);
+      // No place of the node adds anything.
       if (least_square(node, touch_) > least_ + kNothing) continue;
       const auto stretch = static_cast<std::size_t>(node.stretch);
       const double length = node.is_single() ? length_per_u(path_, stretch) : 1;
@@ -109,6 +118,7 @@ class Integral {
     }
   }
 
+  /// Gauss and Legendre's rule; its table has the half of the points that are not below 0.
   void add_panel(std::size_t stretch, double lo, double hi, double length_per_u) {
     const double middle = 0.5 * (lo + hi);
     const double half = 0.5 * (hi - lo);
@@ -120,6 +130,7 @@ class Integral {
     }
   }
 
+  /// One point of the rule, that stands for `length` of boundary.
   void add(const PathPlace& place, double length) {
     const CentrePoint point = path_.at(place);
     const double weight = length * std::exp(-0.5 * (distance_at(point, touch_).square - least_));
@@ -133,6 +144,7 @@ class Integral {
   const CentrePath& path_;
   PartFrame frame_;
   InPart touch_;
+  // Sums over the points, with weight exp(-(square - least) / 2) times length.
   double least_ = 0;
   double sum_ = 0;
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
@@ -141,6 +153,8 @@ class Integral {
 };
 
 /// E g and E M - Cov g for a place with this variance on a straight side: there g is linear, and M quadratic, in u.
+/// `variance`: of u. With Var u = v: Cov g = v (dg/du)(dg/du)^T, and E M gains v |dc/du|^2 in the heading's entry, as
+/// the arm's square grows so.
 Normals mean_and_spread(const PartFrame& frame, const InPart& touch, const CentrePoint& point, double variance) {
   Normals normals = normals_at(frame, touch, point);
   Eigen::Vector3d by_place = -mixed_at(frame, touch, point).by_pose;  // d g / du
@@ -163,14 +177,17 @@ std::optional<TiltedTouch> on_a_side(const PoseFit& fit, const Pose& pose, std::
   const Distance here = distance_at(point, at);
   const double sd = here.weight > 0 ? 1 / std::sqrt(here.weight) : side.width();
   if (nearest.u - kAllOfIt * sd < side.lo || nearest.u + kAllOfIt * sd > side.hi) return std::nullopt;
+  // By how much the square is larger there than at the nearest place.
   const auto rise = [&](double by) {
     return distance_at(path.at({nearest.stretch, nearest.u + by}), at).square - here.square;
   };
   const double before = rise(-kTried * sd) / (kTried * kTried);  // of a straight side 1
   const double behind = rise(kTried * sd) / (kTried * kTried);
   const double even = 0.5 * (before + behind);
+  // A bend or a fold that is too strong: quadrature.
   if (std::abs(even - 1) > kEvenPart || 0.5 * std::abs(behind - before) > kOddPart) return std::nullopt;
   TiltedTouch result;
+  // exp(-least / 2) times the integral of exp(-even (u / sd)^2 / 2) ds.
   result.log_likelihood = -0.5 * here.square + std::log(sd * length_per_u(path, nearest.stretch)) +
                           0.5 * std::log(2 * std::numbers::pi / even);
   result.normals = mean_and_spread(fit.frame(pose), at, point, sd * sd / even);
@@ -179,6 +196,7 @@ std::optional<TiltedTouch> on_a_side(const PoseFit& fit, const Pose& pose, std::
 
 }  // namespace
 
+/// Closed form where the side allows it, else quadrature. A normal alone, or a reference, may be at any place.
 TiltedTouch tilted_touch(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest) {
   const Measured& measured = fit.touches()[touch];
   const bool may_be_anywhere = !measured.has_place || is_reference(measured);

@@ -7,10 +7,18 @@
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
 
+// Notation:
+//   column           what a number of a touch is: TouchColumn
+//   name             what a header calls it: "x", "X [mm]", "x_mm"; or another one that `columns` states
+//   source           COLUMN=NAME or COLUMN=NAME:UNIT of `columns`: ColumnSource
+//   conversion       from the column's unit to the part's, of angles to radians
+// Follows docs/touch.md, "What to give".
+// Idea: columns that the options name are taken first, then known names fill what is left. What is not used is told.
 namespace rollfix {
 namespace touch {
 namespace {
 
+/// By its exact name, in small letters.
 std::optional<TouchColumn> column_called(std::string_view name) {
   const auto known = std::find(kTouchColumns.begin(), kTouchColumns.end(), name);
   if (known == kTouchColumns.end()) return std::nullopt;
@@ -20,6 +28,7 @@ std::optional<TouchColumn> column_called(std::string_view name) {
 std::vector<std::string> column_names() { return {kTouchColumns.begin(), kTouchColumns.end()}; }
 
 /// "COLUMN=NAME:UNIT".
+/// `what`: the start of messages. The unit is behind the last colon, so a column's own name may hold others.
 ColumnSource parse_source(std::string_view field, const std::string& what) {
   const std::size_t equals = field.find('=');
   if (equals == std::string_view::npos || trimmed(field.substr(equals + 1)).empty()) {
@@ -35,6 +44,7 @@ ColumnSource parse_source(std::string_view field, const std::string& what) {
   const std::size_t colon = source.name.rfind(':');
   if (colon == std::string::npos) return source;
   const std::optional<Unit> unit = unit_named(trimmed(std::string_view(source.name).substr(colon + 1)));
+  // `contact` is a flag: it has no unit.
   const bool takes_none = *column == TouchColumn::contact;
   if (takes_none || !unit || unit->dimension != dimension_of(*column)) {
     throw InputError(fmt::format("{}: expected of {} {}, found '{}'", what, source.column,
@@ -48,9 +58,12 @@ ColumnSource parse_source(std::string_view field, const std::string& what) {
 
 }  // namespace
 
+/// "x", "X [mm]", "x_mm" or "x mm": capitals do not matter, a unit is in brackets or behind the last "_" or blank.
+/// None: another column.
 std::optional<KnownColumn> touch_column(const HeaderName& header) {
   const std::string name = lower_case(header.name);
   if (const auto column = column_called(name)) return KnownColumn{*column, std::string(header.unit)};
+  // position_sd and normal_sd were found above: their "sd" is no unit.
   const std::size_t last = name.find_last_of("_ ");
   if (last == std::string::npos || !header.unit.empty()) return std::nullopt;
   const auto column = column_called(std::string_view(name).substr(0, last));
@@ -61,6 +74,7 @@ std::optional<KnownColumn> touch_column(const HeaderName& header) {
   return KnownColumn{*column, std::string(unit->name)};
 }
 
+/// Columns of the options first: they take precedence over known names.
 TouchHeader::TouchHeader(const TableRow& row, const std::string& name, const TouchTableOptions& options)
     : start_(where(name, row.line)) {
   const std::vector<HeaderName> names = names_in(row);
@@ -83,6 +97,7 @@ TouchHeader::TouchHeader(const TableRow& row, const std::string& name, const Tou
 void TouchHeader::add_named(const std::vector<HeaderName>& names, const TouchTableOptions& options) {
   for (const ColumnSource& source : options.columns) {
     const std::size_t cell = find(names, source);
+    // The option's unit, or that of the header.
     const std::string unit = source.unit.empty() ? std::string(names[cell].unit) : source.unit;
     set(*column_called(source.column), cell, unit, options.unit);
   }
@@ -90,6 +105,7 @@ void TouchHeader::add_named(const std::vector<HeaderName>& names, const TouchTab
 
 /// Those that have a known name, where the options do not name another.
 void TouchHeader::add_known(const std::vector<HeaderName>& names, const std::string& part_unit) {
+  // As the options left it: a known name twice is still refused by `set`.
   const auto named = cell_;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::optional<KnownColumn> known = touch_column(names[k]);
@@ -100,6 +116,7 @@ void TouchHeader::add_known(const std::vector<HeaderName>& names, const std::str
   }
 }
 
+/// Throws InputError: a second one, or a unit of the wrong dimension. Angles become radians, lengths the part's unit.
 void TouchHeader::set(TouchColumn column, std::size_t cell, const std::string& unit, const std::string& part_unit) {
   const auto which = static_cast<std::size_t>(column);
   if (cell_[which] != kNone) {
@@ -108,6 +125,7 @@ void TouchHeader::set(TouchColumn column, std::size_t cell, const std::string& u
   cell_[which] = cell;
   if (unit.empty()) return;
   const std::optional<Unit> as_written = unit_named(unit);
+  // Units are taken as written first, since capitals can tell units apart, then in small letters.
   const std::optional<Unit> known = as_written ? as_written : unit_named(lower_case(unit));
   if (column == TouchColumn::contact || !known || known->dimension != dimension_of(column)) {
     throw InputError(fmt::format("{}: column {}: expected {}, one of {}, found '{}'", start_, touch::name_of(column),
@@ -125,6 +143,7 @@ void TouchHeader::set(TouchColumn column, std::size_t cell, const std::string& u
   }
 }
 
+/// A column by its whole text or by its name without the unit.
 std::size_t TouchHeader::find(const std::vector<HeaderName>& names, const ColumnSource& source) const {
   std::vector<std::string> all;
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -153,6 +172,7 @@ std::vector<ColumnSource> parse_touch_columns(std::string_view text) {
 }
 
 bool names_touch_columns(std::string_view text) {
+  // Columns that logs of rolls do not have.
   const auto is_own = [](std::string_view field) {
     const auto column = touch::column_called(trimmed(field.substr(0, field.find('='))));
     return column == touch::TouchColumn::normal || column == touch::TouchColumn::position_sd ||

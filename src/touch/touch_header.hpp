@@ -14,12 +14,14 @@
 
 namespace rollfix::touch {
 
+/// In the order of kTouchColumns.
 enum class TouchColumn : std::size_t { x, y, normal, position_sd, normal_sd, contact };
 inline constexpr std::size_t kTouchColumnCount = 6;
 inline constexpr std::array<const char*, kTouchColumnCount> kTouchColumns = {"x",           "y",         "normal",
                                                                              "position_sd", "normal_sd", "contact"};
 
 inline const char* name_of(TouchColumn column) { return kTouchColumns[static_cast<std::size_t>(column)]; }
+/// Else it is a length, or `contact`, which has no unit.
 inline bool is_of_angle(TouchColumn column) {
   return column == TouchColumn::normal || column == TouchColumn::normal_sd;
 }
@@ -30,6 +32,7 @@ struct KnownColumn {
   TouchColumn column = TouchColumn::x;
   std::string unit{};  // of the header: "x [mm]", "x_mm"; empty: it names none
 };
+/// None: no column of touches has this name.
 std::optional<KnownColumn> touch_column(const HeaderName& header);
 
 /// Which cell of a row holds which column, and in what.
@@ -40,14 +43,18 @@ class TouchHeader {
   /// Throws InputError: no x or y, a column twice, one of `columns` that is not there, a unit that is not the column's.
   TouchHeader(const TableRow& row, const std::string& name, const TouchTableOptions& options);
 
+  /// Of cells in the header.
   std::size_t count() const { return count_; }
   bool has(TouchColumn column) const { return cell(column) != kNone; }
+  /// kNone: the table does not have it.
   std::size_t cell(TouchColumn column) const { return cell_[static_cast<std::size_t>(column)]; }
+  /// To the part's unit, or to radians.
   const Conversion& conversion(TouchColumn column) const { return conversion_[static_cast<std::size_t>(column)]; }
   /// The names of columns that are not used.
   const std::vector<std::string>& ignored() const { return ignored_; }
 
  private:
+  // The steps of the constructor; `set` throws, as it does.
   void add_named(const std::vector<HeaderName>& names, const TouchTableOptions& options);
   void add_known(const std::vector<HeaderName>& names, const std::string& part_unit);
   void set(TouchColumn column, std::size_t cell, const std::string& unit, const std::string& part_unit);

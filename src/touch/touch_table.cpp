@@ -18,6 +18,14 @@
 #include "text/text.hpp"
 #include "touch_header.hpp"
 
+// Notation:
+//   x, y, normal     of a touch: MeasuredTouch; what is empty was not measured, NaN or none
+//   contact          1: a touch, 0: a place on a way on which nothing was felt; without the column all rows are touches
+//   report           what a milling controller writes of its probe: ProbeReport
+//   clear            straight ways from a row with contact 0 to the row after it
+// Follows docs/touch.md, "What to give".
+// Idea: a text is first looked at for a probe's report, which has no header. Else its first row is the header, which
+// says which cell is what and in which unit (touch_header.hpp); below it each row is a touch or a free place.
 namespace rollfix::touch {
 namespace {
 
@@ -49,6 +57,7 @@ bool is_linux_cnc_row(std::string_view line) {
   return count == kLinuxCncNumbers;
 }
 
+/// Throws InputError; `place`: file and line.
 double finite_number(std::string_view text, const char* column, const std::string& place) {
   const std::optional<double> value = parse_number(trimmed(text));
   if (value && std::isfinite(*value)) return *value;
@@ -60,6 +69,7 @@ std::optional<Vec2> grbl_place(std::string_view line, const std::string& place) 
   const std::string_view report = line.substr(grbl_start(line));
   const std::size_t end = report.find(']');
   const std::size_t colon = report.find(':', kGrblStart.size());
+  // The flag stands between the colon and the closing bracket.
   const std::string_view flag = colon < end ? trimmed(report.substr(colon + 1, end - colon - 1)) : std::string_view();
   std::vector<std::string_view> numbers;
   if (flag == "0" || flag == "1") {
@@ -73,6 +83,8 @@ std::optional<Vec2> grbl_place(std::string_view line, const std::string& place) 
   return flag == "1" ? std::optional<Vec2>(at) : std::nullopt;
 }
 
+/// Reports among any other lines of a console. Coordinates are millimetres if the part's unit is known, else taken as
+/// they are.
 TouchTable parse_grbl(std::string_view text, const std::string& name, const TouchTableOptions& options) {
   const bool knows_unit = !options.unit.empty();
   const Conversion own = knows_unit ? length_conversion("mm", options.unit, name) : Conversion{};
@@ -90,6 +102,7 @@ TouchTable parse_grbl(std::string_view text, const std::string& name, const Touc
     table.touches.push_back({{own(at->x()), own(at->y())}});
     table.lines.push_back(number);
   }
+  // What was taken for granted is told: the unit, and that z does not count.
   table.notes.push_back(fmt::format("{}: GRBL's probe reports, {}: machine coordinates, taken as {}; z is not used",
                                     name, counted(table.touches.size(), "touch", "touches"),
                                     knows_unit ? "mm, which they are unless $13=1" : "in the part's unit"));
@@ -100,6 +113,7 @@ TouchTable parse_grbl(std::string_view text, const std::string& name, const Touc
   return table;
 }
 
+/// All rows have nine numbers; x and y are in the machine's unit, which is taken as the part's.
 TouchTable parse_linux_cnc(std::string_view text, const std::string& name) {
   TouchTable table;
   LogLines lines(text, name);
@@ -122,6 +136,7 @@ TouchTable parse_linux_cnc(std::string_view text, const std::string& name) {
 }
 
 /// What of it a text is; none: something else.
+/// GRBL by a report anywhere, LinuxCNC by the first row that is no comment.
 std::optional<ProbeReport> probe_report(std::string_view text) {
   if (grbl_start(text) != std::string_view::npos) return ProbeReport::grbl;
   LogLines lines(text, "");
@@ -161,6 +176,7 @@ void each_row(std::string_view text, const std::string& name, std::optional<bool
   std::string_view line;
   TableRow cut;
   for (std::size_t number = 1; lines.next(line); ++number) {
+    // `row` says whether it wants more.
     if (cutter.cut(line, number, cut) && !row(cut)) return;
   }
 }
@@ -168,6 +184,7 @@ void each_row(std::string_view text, const std::string& name, std::optional<bool
 /// Reads rows below a header.
 class TouchReader {
  public:
+  /// `row`: the header. `name` outlives this.
   TouchReader(const TableRow& row, const std::string& name, const TouchTableOptions& options)
       : header_(row, name, options), name_(name) {}
 
@@ -180,6 +197,7 @@ class TouchReader {
                                  counted(header_.count(), "cell", "cells"), row.cells.size()));
   }
 
+  /// A place that was not measured is NaN.
   MeasuredTouch read(const TableRow& row) const {
     MeasuredTouch touch;
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -191,6 +209,7 @@ class TouchReader {
     return touch;
   }
 
+  /// Without the column each row is a touch.
   bool has_contact(const TableRow& row) const {
     if (!header_.has(TouchColumn::contact)) return true;
     const std::string_view cell = row.cells[header_.cell(TouchColumn::contact)];
@@ -201,8 +220,7 @@ class TouchReader {
   }
 
  private:
-  /// Nothing of an empty cell, unless it is a coordinate.
-  /// Without a place only a normal that was felt says something.
+  /// Without a place only a normal that was felt says something; half a place says nothing.
   void require_normal_alone(const TableRow& row, const MeasuredTouch& touch) const {
     const bool is_half = !std::isnan(touch.at.x()) || !std::isnan(touch.at.y());
     if (!is_half && touch.normal && has_contact(row)) return;
@@ -211,6 +229,8 @@ class TouchReader {
                                  is_half ? "" : "; a touch whose normal alone was measured has a normal"));
   }
 
+  /// None: no such column, or an empty cell. Bare numbers are in the header's unit, an angle with its own unit is in
+  /// radians already.
   std::optional<double> number(const TableRow& row, TouchColumn column) const {
     if (!header_.has(column)) return std::nullopt;
     const std::string_view cell = row.cells[header_.cell(column)];
@@ -240,6 +260,8 @@ bool is_of_roll(std::string name) {
 }
 
 /// Whether a header is one of touches; `columns`: what the options say of it.
+/// x and y, and nothing of a roll. An unknown name that sounds like a roll's is let pass where the options name
+/// columns, or where a column of touches alone is there.
 bool is_touch_header(const TableRow& row, const std::vector<ColumnSource>& columns) {
   const auto is_said = [&](const char* name) {
     return std::any_of(columns.begin(), columns.end(), [&](const ColumnSource& one) { return one.column == name; });
@@ -251,6 +273,7 @@ bool is_touch_header(const TableRow& row, const std::vector<ColumnSource>& colum
     has_x = has_x || (known && known->column == TouchColumn::x);
     has_y = has_y || (known && known->column == TouchColumn::y);
     has_roll = has_roll || is_of_roll(lower_case(header.name));
+    // normal, position_sd and normal_sd: a log of a roll has none of them.
     has_more = has_more || (known && known->column >= TouchColumn::normal && known->column != TouchColumn::contact);
     if (!known && lower_case(header.name) != rollfix::name_of(rollfix::Column::time)) unknown.push_back(header);
   }
@@ -258,6 +281,7 @@ bool is_touch_header(const TableRow& row, const std::vector<ColumnSource>& colum
   return has_x && has_y && !has_roll && (has_more || !may_be_of_roll);
 }
 
+/// Which columns were not used, and how many rows are free space.
 void add_notes(TouchTable& table, const TouchHeader& header, std::size_t free_rows, const std::string& name) {
   const std::vector<std::string>& ignored = header.ignored();
   if (!ignored.empty()) {
@@ -296,9 +320,11 @@ TouchTable parse_touches(std::string_view text, const std::string& name, const T
   std::optional<std::string> header_text;
   std::optional<touch::TouchReader> reader;
   std::size_t free_rows = 0;
+  // Of the row before: its place, and whether it has contact.
   std::optional<Vec2> last;
   bool last_has_contact = false;
   touch::each_row(text, name, options.decimal_comma, [&](const TableRow& row) {
+    // The first row is the header.
     if (!reader) {
       reader.emplace(row, name, options);
       return true;
@@ -306,6 +332,7 @@ TouchTable parse_touches(std::string_view text, const std::string& name, const T
     reader->require_whole(row);
     const MeasuredTouch touch = reader->read(row);
     const bool has_contact = reader->has_contact(row);
+    // The way from a row without contact to the next row, contact or not; the way back from a touch is no path.
     if (last && !last_has_contact) table.clear.push_back({*last, touch.at});
     last = touch.at;
     last_has_contact = has_contact;
@@ -321,6 +348,7 @@ TouchTable parse_touches(std::string_view text, const std::string& name, const T
     throw InputError(
         fmt::format("{}: expected a touch in each row, found no row{}", name, free_rows > 0 ? " with contact 1" : ""));
   }
+  // An empty table that may be empty.
   if (!reader) return table;
   touch::add_notes(table, reader->header(), free_rows, name);
   return table;

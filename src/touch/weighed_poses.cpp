@@ -43,6 +43,8 @@ struct AtPlace {
 };
 
 /// Touches at one place: along the normal, where they tell something, their mean.
+/// As a function of the centre, the product of their normal densities is that of the mean weighted by 1 / sd^2, up to a
+/// factor; informations 1 / sd^2 add up.
 Measured as_one(const std::vector<Measured>& touches) {
   Measured one = touches.front();
   double information = 0;
@@ -57,14 +59,17 @@ Measured as_one(const std::vector<Measured>& touches) {
 }
 
 /// log of what the other touches' places on the boundary add up to, as each is anywhere by itself.
+/// Each touch by itself adds its sd sqrt(2 pi) along the boundary, the mean takes one such factor away again.
 double log_of_others(const std::vector<Measured>& touches) {
   double sum = -std::log(as_one(touches).place_unit * std::sqrt(2 * std::numbers::pi));
   for (const Measured& touch : touches) sum += std::log(touch.place_unit * std::sqrt(2 * std::numbers::pi));
   return sum;
 }
 
+/// Nodes of the posterior over (u, phi), of one place and what is known of the pose beforehand.
 class Grid {
  public:
+  /// REQUIRES a prior with a finite `place_sd`.
   explicit Grid(const Asked& asked)
       : touch_(as_one(asked.fit.touches())),
         path_(asked.fit.path(0)),
@@ -76,6 +81,8 @@ class Grid {
   }
 
   /// Those of one set, whose places hang together, are of one group.
+  /// A set ends where the density falls below exp(kLogBetweenSets) of its largest; across the start of a closed path
+  /// the last set goes on in the first.
   std::vector<PosteriorNode> nodes() && {
     double most = -std::numeric_limits<double>::infinity();
     for (const AtPlace& one : places_) most = std::max(most, one.log_density);
@@ -96,11 +103,14 @@ class Grid {
   void add_stretch(std::size_t k) {
     const Interval& all = path_.stretches()[k].u;
     const double length = length_per_u(path_, k);
+    // A corner that a point touches.
     if (!(length > 0)) return;
     for (double u = all.lo; u < all.hi;) {
       const CentrePoint point = path_.at({k, u});
+      // The centre moves by |dc/du| du, which the place and the prior know to place_sd_.
       double step = std::min(all.hi - u, kGridStep * place_sd_ / point.along.norm());
       if (touch_.tangent && point.bend != 0) {
+        // With a normal u moves the heading by bend du.
         const double turn_sd = std::hypot(touch_.angle_unit, prior_.heading_sd);
         step = std::min(step, kGridStep * turn_sd / std::abs(point.bend));
       }
@@ -109,13 +119,17 @@ class Grid {
     }
   }
 
+  /// All headings at one place: those that prior and normal leave, in steps so fine that neither the heading nor the
+  /// place, by its arm, moves by more than kGridStep of its sd.
   void add_place(const CentrePoint& point, double step, double log_length) {
     const double arm = point.centre.norm();
     const double known_arm = (touch_.at - Vec2(prior_.mean.x, prior_.mean.y)).norm();
+    // q = X + R o, and X is near X0: a place whose |o| is not near |q - X0| fits in no heading.
     if (std::abs(arm - known_arm) > kGridEnd * place_sd_) return;  // in any heading
     double information = 1 / squared(prior_.heading_sd);
     double heading = prior_.mean.heading;
     double square = 0;
+    // The heading is known from the prior and as t - a(u): the weighted mean, and by how much the two differ.
     if (touch_.tangent) {
       const double off = nearest_angle(*touch_.tangent - point.angle - heading);
       information += 1 / squared(touch_.angle_unit);
@@ -123,6 +137,7 @@ class Grid {
       square = squared(off) / (squared(touch_.angle_unit) + squared(prior_.heading_sd));
     }
     const double sd = 1 / std::sqrt(information);
+    // No further than all headings.
     const double half = std::min(kGridEnd * sd, std::numbers::pi);
     const double most = kGridStep * std::min(sd, place_sd_ / std::max(arm, place_sd_));
     const int count = static_cast<int>(std::ceil(2 * half / most));
@@ -141,6 +156,8 @@ class Grid {
     places_.push_back(place);
   }
 
+  /// X in closed form: normal about the mean of X0 and q - R o(u), weighted by their variances. `square` grows by how
+  /// far these two are apart; beyond kGridEnd the node is left out.
   void add_node(const CentrePoint& point, double heading, double square, double step, double turn) {
     const Pose turned{0, 0, heading};
     const Vec2 arm = turned.turned(point.centre);
@@ -154,6 +171,7 @@ class Grid {
     node.pose = {known.x() + share * off.x(), known.y() + share * off.y(), heading};
     node.best = node.pose;
     node.square = square;
+    // What the node stands for, a step of u and one of phi, is uniform: variance step^2 / 12 each.
     const Vec2 by_u = -share * step * turned.turned(point.along);
     const Vec2 by_turn = -share * turn * turned_left(arm);
     const Eigen::Vector3d along(by_u.x(), by_u.y(), 0);
@@ -165,11 +183,14 @@ class Grid {
     nodes_.push_back(node);
   }
 
+  // The one touch, or all at one place as one.
   Measured touch_;
   const CentrePath& path_;
   const PosePrior& prior_;
+  // Of q - X0: sqrt(sd^2 + sd_0^2).
   double place_sd_;
   std::vector<PosteriorNode> nodes_;
+  // In order along the path; of each its nodes.
   std::vector<AtPlace> places_;
 };
 
@@ -183,6 +204,7 @@ constexpr double kAsProbable = 1e-6;
 constexpr std::size_t kPlaceCost = 2000;
 
 /// log(exp(a) + exp(b) + ...) of the nodes' weights.
+/// Minus infinity where there is no weight at all.
 double log_total(const std::vector<PosteriorNode>& nodes) {
   double most = -std::numeric_limits<double>::infinity();
   for (const PosteriorNode& node : nodes) most = std::max(most, node.log_weight);
@@ -193,6 +215,7 @@ double log_total(const std::vector<PosteriorNode>& nodes) {
 }
 
 /// The node nearest to the middle of a continuum, in the sizes of its intervals: all along it poses fit about alike.
+/// REQUIRES a mode with nodes. Of any heading only x and y count.
 std::size_t middle_of(const TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
   const auto off = [&](std::size_t k) {
     const std::array<double, 3> at{nodes[k].best.x, nodes[k].best.y, nodes[k].best.heading};
@@ -210,6 +233,7 @@ std::size_t middle_of(const TouchPose& pose, const PoseMode& mode, const std::ve
 
 /// How well a pose fits. Each touch has a place on the boundary that is unknown, unless a corner pins it; where the
 /// part is free to slide the pose has one unknown less.
+/// nu = residuals - unknowns: 3 of the pose and 1 of each contact's place. chi^2 is that of the fitted pose.
 TouchFit fit_of(const Asked& asked, const FittedPose& fitted, bool is_continuum) {
   TouchFit result;
   result.chi_square = fitted.square;
@@ -219,15 +243,18 @@ TouchFit fit_of(const Asked& asked, const FittedPose& fitted, bool is_continuum)
     // How dense a roll's belief is counts as a measurement of its place.
     if (contacts[k].roll != nullptr) result.freedom += contacts[k].has_place ? 3 : 1;
     if (contacts[k].roll != nullptr) continue;
+    // A touch: two of its place, one of its normal, less its own unknown u, which a corner or an end takes away.
     result.freedom += (contacts[k].has_place && !is_reference(contacts[k]) ? 2 : 0) + (contacts[k].tangent ? 1 : 0) - 1;
     result.freedom += asked.fit.is_pinned(fitted.pose, k, fitted.places[k]) ? 1 : 0;
   }
+  // What is known beforehand is three measurements, or one of the heading.
   if (asked.problem.pose) result.freedom += std::isfinite(asked.problem.pose->place_sd) ? 3 : 1;
   result.freedom = std::max(result.freedom, 0);
   if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);
   return result;
 }
 
+/// By p; of fits that can't be told so, the one with more checks.
 bool fits_better(const TouchFit& one, const TouchFit& other) {
   return one.p > other.p || (one.p == other.p && one.freedom > other.freedom);
 }
@@ -252,21 +279,25 @@ TouchPose weighed_pose(const Asked& asked, const PoseSet& set, const std::vector
     return pose;
   };
   TouchPose pose = with(set.fitted);
+  // The best fit may be anywhere along a continuum, at an end as well: its middle says more.
   if (pose.continuum) {
     TouchPose middle = with(asked.fit.fit(nodes[middle_of(pose, set.mode, nodes)].best));
     if (middle.worst <= 1) pose = std::move(middle);
   }
   if (!asked.free.is_blocked(pose.pose)) return pose;
+  // A pose of the set that leaves the paths free, or the blocked one if none of the nodes looked at does.
   const PosteriorNode* const free = likeliest_free(asked, set.mode, nodes);
   return free == nullptr ? pose : with(asked.fit.at(free->pose));
 }
 
+/// Counts a mode that is not listed, and its probability.
 void leave_out(const PoseMode& mode, WeighedPoses& result) {
   ++result.improbable;
   result.rest += mode.probability;
 }
 
 /// Modes, each with the pose that fits best.
+/// Modes that least squares lead to one pose are joined by `add_set`. Modes of less than kNegligible are counted only.
 std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, std::vector<PoseMode> modes,
                                   const std::vector<PosteriorNode>& nodes, WeighedPoses& result) {
   const auto by_square = [&](std::size_t a, std::size_t b) { return nodes[a].square < nodes[b].square; };
@@ -283,6 +314,7 @@ std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, std:
 }
 
 /// Lists modes, and what all of them weigh.
+/// A set is listed if it has kLeastListed and its best pose is within all tolerances.
 void add_modes(const Asked& asked, const CellSets& sets, std::vector<PoseMode> modes,
                const std::vector<PosteriorNode>& nodes, WeighedPoses& result) {
   result.log_evidence = log_total(nodes);
@@ -294,6 +326,7 @@ void add_modes(const Asked& asked, const CellSets& sets, std::vector<PoseMode> m
     }
     TouchPose pose = weighed_pose(asked, set, nodes);
     const TouchFit one = fit_of(asked, set.fitted, pose.continuum);
+    // The answer's fit is that of the pose that fits best, not of the most probable one.
     if (!result.fit || fits_better(one, *result.fit)) result.fit = one;
     result.poses.push_back(std::move(pose));
   }
@@ -311,6 +344,7 @@ void put_in_order(std::vector<TouchPose>& poses) {
                    [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
   for (auto first = poses.begin(); first != poses.end();) {
     const double least = (1 - kAsProbable) * first->probability;
+    // Poses from `first` to `end` are equally probable, but for rounding.
     const auto end = std::find_if(first, poses.end(), [&](const TouchPose& one) { return one.probability < least; });
     std::stable_sort(first, end,
                      [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
@@ -318,6 +352,7 @@ void put_in_order(std::vector<TouchPose>& poses) {
   }
 }
 
+/// Of a point a corner adds nothing.
 double length_in_reach(const CentrePath& path) {
   double length = 0;
   for (std::size_t k = 0; k < path.stretches().size(); ++k) {
@@ -326,6 +361,7 @@ double length_in_reach(const CentrePath& path) {
   return length;
 }
 
+/// REQUIRES `knows_place`. Without cells: the extents come from the nodes.
 WeighedPoses weighed_by_prior(const Asked& asked) {
   std::vector<PosteriorNode> nodes = nodes_by_prior(asked);
   asked.free.weigh(nodes);
@@ -334,6 +370,7 @@ WeighedPoses weighed_by_prior(const Asked& asked) {
   return result;
 }
 
+/// `budget`: comparisons; one place of the first touch costs kPlaceCost of them.
 WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget) {
   WeighedPoses result;
   const std::size_t first = asked.pair.first;

@@ -46,12 +46,16 @@ struct Shares {
   double angle = 0;
 };
 
+/// Lawson's rounds over PoseFit: from a start to the pose nearby whose largest residual, as a share of its tolerance,
+/// is least.
 class LeastWorst {
  public:
   explicit LeastWorst(const PoseFit& fit) : fit_(fit), touches_(fit.touches()), weighed_(touches_, {}) {}
   LeastWorst(const LeastWorst&) = delete;
   LeastWorst& operator=(const LeastWorst&) = delete;
 
+  /// Ends once a pose is within all tolerances (max t <= 1), or the weighted mean of t^2 exceeds 1, when none nearby
+  /// is, or the rounds are over. The best pose met so far is returned, with its squares in the touches' own units.
   FittedPose from(const Pose& start) {
     reset();
     FittedPose fitted = weighed_.fit(start);
@@ -77,6 +81,7 @@ class LeastWorst {
     set_units();
   }
 
+  /// With unit = tolerance / sqrt(w) the sum of squares of PoseFit is the sum of w t^2.
   void set_units() {
     for (std::size_t k = 0; k < touches_.size(); ++k) {
       touches_[k].place_unit = touches_[k].place_most / std::sqrt(weights_[k].place);
@@ -99,6 +104,7 @@ class LeastWorst {
         sum += weights_[k].angle;
       }
     }
+    // All weights together are 1 again.
     for (Shares& weight : weights_) weight = {weight.place / sum, weight.angle / sum};
     set_units();
   }
@@ -117,6 +123,7 @@ FittedPose best_within(const PoseFit& fit, const std::vector<Cell>& cells, const
   double least = std::numeric_limits<double>::infinity();
   const std::size_t starts = std::min(cells.size(), kMostWitnesses);
   for (std::size_t start = 0; start < starts && least > 1; ++start) {
+    // Starts are spread evenly over the set's cells, in the middle of each share.
     const Cell& cell = cells[(2 * start + 1) * cells.size() / (2 * starts)];
     const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
     const Held held{pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
@@ -149,9 +156,12 @@ struct PoseBox {
 };
 
 /// Whether an angle is within so much of another.
+/// Modulo whole turns.
 bool is_near(double one, double other, double most) { return std::abs(nearest_angle(one - other)) <= most; }
 
 /// A place within these tolerances of a touch, or one that is not known to be outside them by more than a little.
+/// Depth first over the tree. A node goes where its disc is further than `place`, or its tangents than `angle`. Surely:
+/// a place counts if it is within the tolerances itself; else also a node so small that it is within kFinest of them.
 std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, double place, double angle, bool surely) {
   boost::container::small_vector<std::int32_t, 64> waiting{tree.root()};
   while (!waiting.empty()) {
@@ -163,6 +173,7 @@ std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, doubl
     if (touch.tangent && !is_near(*touch.tangent, node.angle, angle + node.half_turn)) continue;
     if (node.is_single()) {
       const PathPlace middle{static_cast<std::size_t>(node.stretch), node.u.middle()};
+      // The middle place of a node is one of the path.
       const bool is_inside =
           off <= place && (!touch.tangent || is_near(*touch.tangent, tree.path().at(middle).angle, angle));
       const bool is_small =
@@ -178,8 +189,10 @@ std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, doubl
   return std::nullopt;
 }
 
+/// Boxes of poses, halved until one holds a witness or all are refuted.
 class BoxSearch {
  public:
+  /// Only poses in `extent` count. `budget`: boxes.
   BoxSearch(PoseFit& fit, const PoseExtent& extent, std::size_t budget) : fit_(fit), extent_(extent), budget_(budget) {
     finest_ = fit.touches().front().place_most;
     for (const Measured& touch : fit.touches()) finest_ = std::min(finest_, touch.place_most);
@@ -187,6 +200,8 @@ class BoxSearch {
     for (const Measured& touch : fit.touches()) reach_ = std::max(reach_, (touch.at - fit.about()).norm());
   }
 
+  /// Depth first. A box goes where it is outside of the extent, or where some touch has no place in any of its poses;
+  /// its middle is tried as a witness. A box at the finest size that is neither leaves the question open.
   BoxesFound search(const PoseBox& all) {
     std::vector<PoseBox> waiting{all};
     bool decided = true;
@@ -218,6 +233,8 @@ class BoxSearch {
     return true;
   }
 
+  /// The touch moves in the part's frame by up to sqrt(2) * place, and with the turn by the arm from the middle of the
+  /// touches; tolerances are wider by that.
   bool may_fit(const PoseBox& box, std::size_t which) {
     const Measured& touch = fit_.touches()[which];
     const double moved = std::numbers::sqrt2 * box.place;
@@ -228,12 +245,14 @@ class BoxSearch {
   }
 
   /// Whether no pose of the box is in the extent.
+  /// The part's origin moves with the box, and with the turn about the touches' middle.
   bool is_outside(const PoseBox& box) const {
     const double swing = std::hypot(box.middle.x - fit_.about().x(), box.middle.y - fit_.about().y()) * box.turn;
     const double place = std::numbers::sqrt2 * box.place * (1 + box.turn) + swing;
     return !holds(extent_, box.middle, place, box.turn);
   }
 
+  /// A pose with a place for each touch that is surely within its tolerances, and in the extent.
   std::optional<FittedPose> fits(const Pose& pose) {
     if (!holds(extent_, pose)) return std::nullopt;
     std::vector<PathPlace> places;
@@ -266,12 +285,17 @@ class BoxSearch {
   PoseFit& fit_;
   PoseExtent extent_;
   std::size_t budget_;
+  // Boxes no larger are not halved, length.
   double finest_ = 0;
+  // Of the touches from their middle, length: a turn moves them by no more than that times it.
   double reach_ = 0;
+  // The touch that ruled out the last box.
   std::size_t last_ = 0;
 };
 
 /// Around all poses of the cells.
+/// The middle is that of the first cell. A cell's poses differ from its own middle pose by the disc of the first
+/// contact, its tolerance and the swing of the headings.
 PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair) {
   const Measured& first = fit.touches()[pair.first];
   const auto pose_of = [&](const Cell& cell) {
@@ -288,6 +312,7 @@ PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair
     box.place = std::max(box.place, std::hypot(pose.x - turned.x, pose.y - turned.y) + slack);
     box.turn = std::max(box.turn, std::abs(turn) + cell.heading.half);
   }
+  // More than all headings is all.
   box.turn = std::min(box.turn, std::numbers::pi);
   return box;
 }
@@ -316,6 +341,7 @@ FittedPose best_free(const Asked& asked, const std::vector<Cell>& cells, FittedP
   for (std::size_t look = 0; look < looks; ++look) {
     const Cell& cell = cells[(2 * look + 1) * cells.size() / (2 * looks)];
     const PathTree::Node& node = fit.tree(first).node(cell.first);
+    // The first contact stays on the cell, so that the pose is one of the set.
     const Held held{first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
     FittedPose fitted = fit.fit(fit.pose_at(held, cell.heading.middle), held);
     if (asked.free.is_blocked(fitted.pose) || (best && worst_of(fit, *best) <= worst_of(fit, fitted))) continue;
@@ -330,6 +356,8 @@ struct Looked {
   bool refuted = false;  // proved: no pose of the set fits
 };
 
+/// Three steps, each only where the one before has not decided: least worst residual, boxes of poses, and, where a path
+/// is in the way, other poses of the set.
 Looked look_in(const Asked& asked, const std::vector<Cell>& cells) {
   PoseFit& fit = asked.fit;
   const PoseExtent extent = extent_of(fit, cells, asked.pair, {0, 0, cells.front().heading.middle});
@@ -350,6 +378,8 @@ class Witnesses {
  public:
   Witnesses(const Asked& asked, CellSearch& search) : asked_(asked), search_(search) {}
 
+  /// Each component is witnessed, refuted or looked at again with finer cells, which may fall apart. After kRefinements
+  /// rounds it is left without a witness.
   void look_at(const CellSets& sets, double leaf, int round = 0) {
     for (const std::vector<std::size_t>& component : sets.components) {
       std::vector<Cell> own = cells_of(sets, component);
@@ -365,6 +395,7 @@ class Witnesses {
     }
   }
 
+  /// Ends the search: all found sets as poses.
   WitnessedPoses result() {
     for (const PoseSet& set : found_) {
       result_.poses.push_back(described(asked_.fit, set.fitted, set.cells, asked_.pair));
@@ -375,6 +406,7 @@ class Witnesses {
   }
 
  private:
+  /// Undecided cells of the finer search are kept as such.
   void look_finer(const std::vector<Cell>& cells, double leaf, int round) {
     const PathTree& first = asked_.fit.tree(asked_.pair.first);
     Cells finer = search_.search(cells, leaf);
@@ -385,6 +417,7 @@ class Witnesses {
 
   const Asked& asked_;
   CellSearch& search_;
+  // Sets with a witness, those of one pose joined.
   std::vector<PoseSet> found_;
   WitnessedPoses result_;
 };

@@ -38,6 +38,7 @@ constexpr int kPlainBoxHalvings = 16;
 constexpr int kOverlapInterval = 8;
 // Within an extent the curves are taken as straight where their directions vary by this share at the most.
 constexpr double kBoxExtentBend = 0.01;
+// Rounds of Newton's method at most; from half of them on it takes the simplified step, which contracts for sure.
 constexpr int kMostBoxRounds = 60;
 // Boxes and finds that there is room for at first.
 constexpr std::size_t kBoxRoom = 32;
@@ -47,17 +48,19 @@ constexpr int kCubicRounds = 3;
 constexpr double kLastBoxStep = 1e-9;
 // Newton's step that is below this share of the box is the last one.
 constexpr double kBoxRootStep = 1e-14;
-// So is one below this share that hardly shrinks any more.
+// So is one below this share that is more than half as large as the one before: rounding moves it.
 constexpr double kSmallBoxStep = 1e-6;
 // On a flat box of zeros the slopes vanish as well, up to this many radians over a perimeter.
 constexpr double kFlatSlope = 1e-9;
 
+/// From one end of a side to the other, in the plane of components p and q.
 Vec2 chord(const BoxSide& side, std::size_t p, std::size_t q) {
   const PlaneCurve::Component& one = side.component(p);
   const PlaneCurve::Component& two = side.component(q);
   return {one.last - one.first, two.last - two.first};
 }
 
+/// by.x() times component p and by.y() times component q of a side.
 PlaneCurve::Combination combination(const BoxSide& side, const Vec2& by, std::size_t p, std::size_t q) {
   return {by.x(), by.y(), side.component(p), side.component(q)};
 }
@@ -67,7 +70,8 @@ Range along(const BoxSide& side, const Vec2& direction, std::size_t p, std::size
   return combination(side, direction, p, q).value(side.width());
 }
 
-/// Of a matrix without entries below 0: below 1, the powers of whatever matrix it bounds vanish.
+/// The spectral radius of a matrix without entries below 0. Below 1, the powers of every matrix whose entries it bounds
+/// in size vanish.
 double spectral_radius(const Eigen::Matrix2d& bound) {
   const double middle = 0.5 * bound.trace();
   const double half = 0.5 * (bound(0, 0) - bound(1, 1));
@@ -80,6 +84,7 @@ double residual(const PairBoxSides& sides, const PairLimits& limits, const Curve
   return on_a.value(row) - on_b.value(row) - sides.shift(row, limits);
 }
 
+/// The largest |f_k| at a place on each side.
 double largest_residual(const PairBoxSides& sides, const PairLimits& limits, const CurvePoint& on_a,
                         const CurvePoint& on_b) {
   double largest = 0;
@@ -89,8 +94,8 @@ double largest_residual(const PairBoxSides& sides, const PairLimits& limits, con
   return largest;
 }
 
-/// Where in the box all residuals, straight about this place, are within the tolerance: of two rows a parallelogram, if
-/// it is all in the box.
+/// The part of the box in which all |f_k| are within the tolerance, with f taken as straight about a place: a convex
+/// polygon, empty where there is none. Of two rows it is a parallelogram, if all of that is in the box.
 Polygon set_about(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows,
                   const CurvePoint& on_a, const CurvePoint& on_b) {
   const auto f = [&](std::size_t row) { return residual(sides, limits, on_a, on_b, row); };
@@ -104,6 +109,8 @@ Polygon set_about(const PairBoxSides& sides, const PairLimits& limits, const std
   const Eigen::Matrix2d inverse = jacobian.inverse();
   Polygon set;
   bool fits = true;
+  // The corners of the parallelogram |f_p|, |f_q| <= tolerance, through the inverse of J. If one is outside, start from
+  // the whole box instead and cut it by every row.
   for (const Vec2& sign : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
     const Vec2& corner = set.emplace_back(at + inverse * (limits.tolerance * sign - Vec2(f(p), f(q))));
     fits = fits && (corner.array() >= lo.array()).all() && (corner.array() <= hi.array()).all();
@@ -115,7 +122,8 @@ Polygon set_about(const PairBoxSides& sides, const PairLimits& limits, const std
   return set;
 }
 
-/// A convex set of pairs, with a place in it.
+/// A piece of a convex set of pairs, in coordinates of the box, with a place in it: as s and t, so that pivots are
+/// points.
 PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const Vec2& inner) {
   Vec2 least = inner;
   Vec2 most = inner;
@@ -132,8 +140,9 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
   return piece;
 }
 
-/// About where the curves cross, or the nearest place in the box: of both sides' chords, and from there of the cubics,
-/// which cost next to nothing. Newton's method has little left to do.
+/// About where the curves cross, or the nearest place in the box: where both sides' chords cross, then Newton's method
+/// on both sides' cubics, which needs no evaluation of the curves. A start for Newton's method on the curves
+/// themselves.
 Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows) {
   const std::array<Cubic, 2> on_a{sides.a.cubic(rows[0]), sides.a.cubic(rows[1])};
   const std::array<Cubic, 2> on_b{sides.b.cubic(rows[0]), sides.b.cubic(rows[1])};
@@ -154,6 +163,7 @@ Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const s
     }
     shares = (shares - slopes.inverse() * f).cwiseMax(0).cwiseMin(1);
   }
+  // Chords or cubics that are parallel: the middle will do.
   if (!shares.allFinite()) return {sides.a.middle(), sides.b.middle()};
   return {sides.a.lo() + shares.x() * sides.a.width(), sides.b.lo() + shares.y() * sides.b.width()};
 }
@@ -187,6 +197,8 @@ void BoxSearch::decide(const Box& box) {
   const PlaneCurve::Component* on_a = a_.components(box.a);
   const PlaneCurve::Component* on_b = b_.components(box.b);
   for (std::size_t row = 0; row < a_.rows(); ++row) {
+    // A row of its own excludes the box. The facing row is modulo 2 pi: its multiples within reach are counted, and
+    // bounds that need one of them wait until only one is left.
     const Range f = on_a[row].value - on_b[row].value;
     if (limits_.facing && row + 1 == a_.rows()) {
       const double least = std::ceil((f.least - tolerance) / kFullTurn);
@@ -199,6 +211,7 @@ void BoxSearch::decide(const Box& box) {
     }
   }
   if (one_lap && meet_nowhere_across(box, lap, tolerance)) return;
+  // Nodes over many pieces come with the part: halving them costs nothing of the budget.
   if (!a_.node(box.a).on_one_piece() || !b_.node(box.b).on_one_piece()) {
     halve(box, a_is_wider(box));
     return;
@@ -210,6 +223,7 @@ void BoxSearch::decide(const Box& box) {
                                     Interval{sides.b.s(sides.b.lo()), sides.b.s(sides.b.hi())}});
     return;
   }
+  // The first box of each pair of pieces is free: there are as many as the part has, whatever the tolerance.
   if (box.depth > 0) --budget_;
   if (one_lap) {
     decide_on_pieces(box, sides, limits);
@@ -218,7 +232,8 @@ void BoxSearch::decide(const Box& box) {
   }
 }
 
-/// Are the first two components' sums or differences apart?
+/// Are A_0 + A_1 and B_0 + B_1 further apart than the tolerance allows, or A_0 - A_1 and B_0 - B_1? Each of the two may
+/// be off by both rows' tolerances.
 bool BoxSearch::meet_nowhere_across(const Box& box, double lap, double tolerance) const {
   if (a_.rows() < 2) return false;
   const double shift = limits_.facing && a_.rows() == 2 ? lap : 0;
@@ -230,10 +245,14 @@ bool BoxSearch::meet_nowhere_across(const Box& box, double lap, double tolerance
 }
 
 void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits) {
+  // First what ends most boxes: at most one root, and it is found or excluded.
   if (const auto rows = regular(sides); rows && take_regular(sides, limits, *rows)) return;
+  // Then f that does not vary enough for halving to tell more.
   const Flat flat = take_flat(sides, limits);
   if (flat == Flat::settled) return;
   box.covered = box.covered || flat == Flat::covered;
+  // J is singular in the box. Two straight sides cross or run along each other, which a line decides at once; else a
+  // line is followed after many halvings, and earlier only where an overlap shows.
   const bool is_last_resort = box.depth >= kPlainBoxHalvings || (sides.a.is_straight() && sides.b.is_straight());
   const bool overlap_due = box.depth > 0 && box.depth % kOverlapInterval == 0;
   if (is_last_resort || overlap_due || corners_vanish(sides)) {
@@ -243,7 +262,7 @@ void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairL
   halve(box, a_is_wider(box));
 }
 
-/// Of one that is on many pieces yet that one, else the side that f varies more along.
+/// Which side to halve: the one that is still over many pieces, else the one that f varies more along.
 bool BoxSearch::a_is_wider(const Box& box) const {
   const PlaneCurve::Node& a = a_.node(box.a);
   const PlaneCurve::Node& b = b_.node(box.b);
@@ -262,12 +281,14 @@ void BoxSearch::halve(const Box& box, bool side_a) {
   const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
   const int depth = on_pieces ? box.depth + 1 : 0;
   const auto [left, right] = side_a ? a_.halves(box.a) : b_.halves(box.b);
+  // Depth first, the left half next: the last one in is decided first.
   for (const std::int32_t half : {right, left}) {
     if (half >= 0) waiting_.push_back({side_a ? half : box.a, side_a ? box.b : half, depth, box.covered});
   }
 }
 
-/// Seen along either side's chord, the two are further apart than the tolerance.
+/// Are the two sides further apart than the tolerance, seen along either one's chord? Across its own chord a side is
+/// thin: its bounds fall with the square of its length. Both are bounded as one combination of two components.
 bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) const {
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
@@ -276,6 +297,7 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
         if (across == Vec2::Zero()) continue;
         const double by = across.x() * sides.shift(p, limits_) + across.y() * sides.shift(q, limits_);
         const Range f = along(sides.a, across, p, q) - along(sides.b, across, p, q) - Range{by, by};
+        // What both rows' tolerances come to in this combination.
         const double reach = limits.tolerance * across.lpNorm<1>();
         if (!f.comes_within(reach)) return true;
       }
@@ -284,10 +306,13 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
   return false;
 }
 
+/// Each entry of J has bounds on the box. With Y the inverse of their middles, |1 - Y J| is bounded entry by entry
+/// (`off`). If the spectral radius of that is below 1, Y J is invertible anywhere in the box, and so is J.
 std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) const {
   std::optional<Regular> best;
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
+      // Rows p, q: the middles of all four slopes' bounds.
       Eigen::Matrix2d middle;
       for (const Eigen::Index k : {0, 1}) {
         const Range at_a = sides.a.slope(k == 0 ? p : q);
@@ -299,6 +324,8 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
           kParallel * (std::abs(middle(0, 0) * middle(1, 1)) + std::abs(middle(0, 1) * middle(1, 0)));
       if (std::abs(determinant) <= rounding || !std::isfinite(1 / determinant)) continue;
       Regular found{{p, q}, middle.inverse(), {}, {}, 0};
+      // Entry (i, j) of Y J combines the slopes of both rows on side j: only a combination sees the terms that they
+      // share.
       const Vec2 first = found.inverse.row(0);
       const Vec2 second = found.inverse.row(1);
       found.off(0, 0) = combination(sides.a, first, p, q).slope_radius();
@@ -315,16 +342,19 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
   return best;
 }
 
-/// f, continued beyond the box with the slopes at its ends, has one zero in the whole plane (Hadamard): where?
+/// J is invertible on the box: f, continued beyond the box by its tangents there, has exactly one zero x* in the whole
+/// plane (Hadamard). Newton's method finds it. Lists it as a crossing if it is in the box, with the set within the
+/// tolerance around it.
 bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular) {
   const auto [p, q] = regular.rows;
   const Eigen::Array2d width(std::max(sides.a.width(), limits_.same_place),
                              std::max(sides.b.width(), limits_.same_place));
   const Vec2 lo(sides.a.lo(), sides.b.lo());
   const Vec2 hi(sides.a.hi(), sides.b.hi());
-  // From a place where the residuals are f the zero is at most so far away.
+  // From x the zero is at most (1 - off)^-1 |Y f(x)| away, since |x* - x + Y f| <= off |x* - x| entry by entry.
   const auto reached = [&](const Vec2& step) -> Vec2 { return regular.slack * step.cwiseAbs(); };
   const Vec2 reach = reached(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
+  // How much the directions in the box vary, as a share, and how much of that the set within the tolerance sees.
   const double turn = (regular.off * width.matrix()).cwiseQuotient(width.matrix()).maxCoeff();
   const double bend = turn * std::min(1.0, (reach.array() / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
@@ -338,6 +368,8 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     on_b = sides.b.point(at.y());
     const Vec2 f(residual(sides, limits_, on_a, on_b, p), residual(sides, limits_, on_a, on_b, q));
     const Vec2 middle_step = regular.inverse * f;
+    // x* is within off (1 - off)^-1 |Y f| of the simplified Newton step's end, and the set within the tolerance within
+    // `reach` of x*. If that is outside the box, nothing is in it.
     const Eigen::Array2d near = (at - middle_step).array();
     const Eigen::Array2d off = (regular.off * reached(middle_step) + reach).array();
     if (((near + off < lo.array()) || (near - off > hi.array())).any()) return true;
@@ -357,7 +389,10 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     }
   }
 
+  // Here `at` is x* but for rounding. It counts as in the box where rounding may have moved it out: a neighbour may
+  // find it again, and finds of one root are joined later.
   Polygon extent = set_about(sides, limits, regular.rows, on_a, on_b);
+  // Of more than two equations the others must vanish as well.
   const bool exact = largest_residual(sides, limits_, on_a, on_b) <= kRootTurn;
   const Vec2 edge = reached(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
                     Vec2(sides.a.same_place(limits_), sides.b.same_place(limits_));
@@ -365,6 +400,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   if (extent.empty() && !(inside && exact)) return true;
   if (extent.empty()) extent.push_back(at);
   const Vec2 root(std::clamp(at.x(), lo.x(), hi.x()), std::clamp(at.y(), lo.y(), hi.y()));
+  // Inside a set that is listed already only roots are missing.
   if (!limits.covered) {
     findings_.pieces.push_back(piece_around(sides, extent, inside ? root : extent.front()));
     findings_.pieces.back().error = 0.25 * bend * reach.minCoeff();
@@ -376,8 +412,9 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   return true;
 }
 
-/// f hardly varies: it is 0 all over the box, or the box is too small to tell more, or it is within the tolerance all
-/// over the box, which leaves the roots to be found.
+/// Decides boxes on which f varies by less than rounding or than a share of the tolerance, and boxes as small as
+/// rounding. f is 0 all over the box (a continuum, `exact`); or all of the box is in or out as its middle is; or f is
+/// within the tolerance all over it, so that the box is listed and its roots are left to be found.
 BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
   const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
   const double small_spread = kSmallVariation * limits.tolerance;
@@ -399,10 +436,12 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
   const bool zero = size <= kTurnAccuracy;
   const bool small = spread <= small_spread;
   if (!zero && !tiny && !small && size > limits.tolerance) return Flat::no;
+  // Out, as the middle of f's bounds is.
   if (middle > limits.tolerance) return Flat::settled;
   PairPiece piece;
   piece.box = {Interval{sides.a.s(sides.a.lo()), sides.a.s(sides.a.hi())},
                Interval{sides.b.s(sides.b.lo()), sides.b.s(sides.b.hi())}};
+  // An exact set needs slopes of 0 too: else f = 0 only because the box is small.
   piece.exact = zero && steepest * limits.perimeter <= kFlatSlope;
   piece.corner = sides.pivots();
   if (!piece.exact) piece.error = kSmallVariation * std::max(piece.box[0].width(), piece.box[1].width());

@@ -19,11 +19,15 @@ namespace rollfix::locating {
 /// is halved.
 class BoxSearch {
  public:
+  /// Both curves have the same rows; their trees grow during the search. `budget` is taken from, `findings` is added
+  /// to.
   BoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
 
+  /// Decides all pairs of places on the two curves, depth first. What is over when the budget ends is in `unresolved`.
   void run();
 
  private:
+  /// A pair of nodes, one of each tree.
   struct Box {
     std::int32_t a;
     std::int32_t b;
@@ -40,16 +44,22 @@ class BoxSearch {
     double radius;            // the spectral radius of `off`: what the simplified Newton step contracts by
   };
 
+  /// Excludes a box by the bounds of its two nodes, or decides it on its pieces, or halves it.
   void decide(const Box& box);
   void decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits);
+  /// Of take_flat: f varies too much to tell; the box is decided; or all of it is listed and only its roots are
+  /// missing.
   enum class Flat { no, settled, covered };
 
   bool meet_nowhere_across(const Box& box, double lap, double tolerance) const;
   bool is_apart(const PairBoxSides& sides, const PairLimits& limits) const;
+  /// Two rows whose J is proved invertible on the whole box, those that contract most; empty: none.
   std::optional<Regular> regular(const PairBoxSides& sides) const;
+  /// False: the set within the tolerance bends too much in this box to be taken as straight.
   bool take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular);
   Flat take_flat(const PairBoxSides& sides, const PairLimits& limits);
   bool corners_vanish(const PairBoxSides& sides) const;
+  /// Halves one side, a's or b's.
   void halve(const Box& box, bool side_a);
   bool a_is_wider(const Box& box) const;
 

@@ -20,6 +20,7 @@ bool holds(const PairBox& box, const PairPoint& at) {
   return at[0] >= box[0].lo && at[0] <= box[0].hi && at[1] >= box[1].lo && at[1] <= box[1].hi;
 }
 
+/// Walks the graph of pieces that touch: each connected component is a cluster. Then hands out the roots.
 class Joiner {
  public:
   Joiner(const Part& part, const PairFindings& findings, double same_place)
@@ -29,6 +30,7 @@ class Joiner {
         same_place_(same_place),
         links_(links_of(pieces_, boundary_, same_place)) {}
 
+  /// One cluster for each connected component, in the order of its first piece.
   std::vector<PairCluster> run() {
     std::vector<PairCluster> clusters;
     std::vector<bool> seen(pieces_.size(), false);
@@ -47,12 +49,15 @@ class Joiner {
   }
 
  private:
+  /// The connected component of piece `first`, with its pieces in `members`. shift_of_ says for each of them by how
+  /// many laps it is moved to hang together with the first one; the extent is of the moved pieces.
   PairCluster cluster_of(std::size_t first, std::vector<bool>& seen, std::vector<std::size_t>& members) {
     PairCluster cluster;
     std::vector<std::size_t> waiting{first};
     seen[first] = true;
     cluster.extent = pieces_[first].box;
     cluster.corner = true;
+    // All that waits is marked as seen, with its shift.
     while (!waiting.empty()) {
       const std::size_t here = waiting.back();
       waiting.pop_back();
@@ -78,6 +83,7 @@ class Joiner {
         cluster.extent[k] = {0, boundary_.perimeter};
       }
     }
+    // Of a continuum: where it begins, and a line through all of it.
     if (cluster.exact) {
       cluster.first = first_exact(members, cluster);
       FamilyLine line = line_through_family(pieces_, links_, members, boundary_.perimeter);
@@ -90,6 +96,7 @@ class Joiner {
   /// Where an exact set begins, however its pieces were cut and in whatever order they were found.
   PairPoint first_exact(const std::vector<std::size_t>& members, const PairCluster& cluster) const {
     PairPoint first{std::numeric_limits<double>::infinity(), 0};
+    // The least s so far; of those that are least but for rounding, the least t.
     const auto try_point = [&](PairPoint at) {
       for (const std::size_t k : {0U, 1U}) {
         if (cluster.whole_loop[k]) at[k] = boundary_.canonical(at[k]);
@@ -111,7 +118,7 @@ class Joiner {
     double widths = 0;
     for (const std::size_t k : members)
       widths += pieces_[k].box[finger].width() + 2 * kJointWidth * boundary_.perimeter;
-    if (widths < 0.5 * boundary_.perimeter) return false;  // by far
+    if (widths < 0.5 * boundary_.perimeter) return false;  // too short together, without a sort
     std::vector<Interval> intervals;
     for (const std::size_t k : members) {
       const Interval& interval = pieces_[k].box[finger];
@@ -119,6 +126,7 @@ class Joiner {
     }
     std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
     const double slack = kJointWidth * boundary_.perimeter;
+    // [0, reached] is covered by the intervals so far, but for joints.
     double reached = slack;
     for (const Interval& interval : intervals) {
       if (interval.lo > reached + slack) return false;
@@ -127,6 +135,7 @@ class Joiner {
     return reached >= boundary_.perimeter - slack;
   }
 
+  /// Orders the roots along the slant, all of them still to be handed out.
   void sort_roots() {
     not_taken_.resize(roots_.size() + 1);
     std::iota(not_taken_.begin(), not_taken_.end(), std::size_t{0});
@@ -135,7 +144,8 @@ class Joiner {
     root_order_ = by_place(roots_at_);
   }
 
-  /// The first in the roots' order from this one on that no piece has taken. What it passes it need not pass again.
+  /// The first root, in their order from this one on, that no piece has taken; the number of roots if there is none.
+  /// Ways are shortened as they are gone (path compression), so that taken roots are not passed again and again.
   std::size_t not_taken(std::size_t from) {
     std::size_t found = from;
     while (not_taken_[found] != found) found = not_taken_[found];
@@ -148,6 +158,7 @@ class Joiner {
     std::vector<std::pair<std::size_t, PairPoint>> found;
     for (const std::size_t k : members) {
       const PairBox box = widened(pieces_[k].box, same_place_);
+      // Roots in the box have a place along the slant within the box's own: a stretch of their order.
       const Interval reach = along_slant(box);
       const auto from = std::lower_bound(root_order_.begin(), root_order_.end(), reach.lo,
                                          [&](std::size_t root, double value) { return roots_at_[root].lo < value; });
@@ -160,6 +171,7 @@ class Joiner {
         found.emplace_back(root, moved(roots_[root].at, shift_of_[k]));
       }
     }
+    // In the order in which the search found them, whichever piece holds them.
     std::sort(found.begin(), found.end());
     for (const auto& [root, at] : found) {
       cluster.roots.push_back(roots_[root]);
@@ -167,6 +179,7 @@ class Joiner {
     }
   }
 
+  /// Is the root as near to the piece's line as the line may be off? True for a piece without a line.
   bool is_near_line(const PairPiece& piece, const PairPoint& at) const {
     if (piece.line.empty()) return true;
     const double reach = piece.error + same_place_ + kJointWidth * boundary_.perimeter;

@@ -17,12 +17,14 @@ namespace rollfix::locating {
 // have the same s, or the same t. By the golden ratio, which is far from all fractions.
 inline constexpr double kSlant = 0.6180339887498949;
 
+/// The place of a point along the slant, of a box the places of all its points; length.
 inline double along_slant(const PairPoint& at) { return at[0] + kSlant * at[1]; }
 
 inline Interval along_slant(const PairBox& box) {
   return {along_slant(PairPoint{box[0].lo, box[1].lo}), along_slant(PairPoint{box[0].hi, box[1].hi})};
 }
 
+/// The same box, larger by this on all four sides.
 inline PairBox widened(const PairBox& box, double by) {
   return {Interval{box[0].lo - by, box[0].hi + by}, Interval{box[1].lo - by, box[1].hi + by}};
 }
@@ -47,8 +49,8 @@ struct PieceLink {
 
 /// A line through all the exact pieces of a set, unwrapped.
 struct FamilyLine {
-  std::vector<PairPoint> points;
-  double error = 0;  // how far the line may be off the set
+  std::vector<PairPoint> points;  // each next to the one before; branches are passed twice
+  double error = 0;               // how far the line may be off the set
 };
 
 /// Depth first through the exact ones among the `members` of a set; where a branch ends the line goes back the way it

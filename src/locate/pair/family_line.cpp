@@ -25,6 +25,7 @@ PairPoint nearest_on(const PairPoint& a, const PairPoint& b, const PairPoint& p)
   const double x = b[0] - a[0];
   const double y = b[1] - a[1];
   const double square = x * x + y * y;
+  // The foot of the perpendicular from p, as a share of the segment, kept on it.
   const double share = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
   return {a[0] + share * x, a[1] + share * y};
 }
@@ -35,6 +36,7 @@ struct OnPiece {
   std::size_t segment = 0;
 };
 
+/// Of a piece that is moved by `shift`. Without a line it is the box that counts.
 OnPiece nearest(const PairPiece& piece, const Shift& shift, const PairPoint& place) {
   if (piece.line.empty()) {
     const PairBox box = moved(piece.box, shift);
@@ -80,6 +82,8 @@ std::vector<PairPoint> simplified(const std::vector<PairPoint>& path, double det
   while (!waiting.empty()) {
     const auto [from, to] = waiting.back();
     waiting.pop_back();
+    // The chord from..to is kept where no point in between is off it by more than the detail; else it is cut at the
+    // farthest.
     double most = detail;
     std::size_t farthest = 0;
     for (std::size_t k = from + 1; k < to; ++k) {
@@ -101,16 +105,20 @@ std::vector<PairPoint> simplified(const std::vector<PairPoint>& path, double det
   return result;
 }
 
+/// A walk through a set's exact pieces that leaves a line behind it: `path_`.
 class Tracer {
  public:
   Tracer(const std::vector<PairPiece>& pieces, const std::vector<std::vector<PieceLink>>& links, double period)
       : pieces_(pieces), links_(links), joint_(kJointWidth * period), detail_(kFamilyDetail * period) {}
 
+  /// REQUIRES an exact piece among the members.
   FamilyLine run(const std::vector<std::size_t>& members) {
     const std::size_t first = loose_end(members);
     wanted_ = on_the_way_to_exact(first);
     left_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
     enter(first, {0, 0}, free_end(first));
+    // The stack holds the way from the first piece to the one in which the walk stands; ends when all wanted ones are
+    // done.
     while (!stack_.empty() && left_ > 0) {
       Visit& here = stack_.back();
       if (here.next == links_[here.piece].size()) {
@@ -132,6 +140,7 @@ class Tracer {
     std::size_t next = 0;  // of its links, to be tried
   };
 
+  /// How many links lead to exact pieces.
   std::size_t exact_neighbours(std::size_t piece) const {
     return static_cast<std::size_t>(std::count_if(links_[piece].begin(), links_[piece].end(),
                                                   [&](const PieceLink& link) { return pieces_[link.to].exact; }));
@@ -162,16 +171,19 @@ class Tracer {
   /// Goes all along a piece, from where it is entered.
   void enter(std::size_t k, const Shift& shift, const PairPoint& entry) {
     const PairPiece& piece = pieces_[k];
+    // Once for each piece: a piece that is passed again on the way back is not entered again.
     wanted_[k] = false;
     --left_;
     path_.push_back(entry);
     if (piece.line.empty()) {
       const PairPoint middle = middle_of(piece, shift);
       path_.push_back(middle);
+      // All of the box is zero: its corners are half a diagonal off the point that stands for it.
       if (piece.exact) error_ = std::max(error_, 0.5 * std::hypot(piece.box[0].width(), piece.box[1].width()));
       stack_.push_back({k, shift, middle});
       return;
     }
+    // From the entry to the nearer end first, if that is not the entry, then all the way to the other one.
     PairPoint near = moved(piece.line.front(), shift);
     PairPoint far = moved(piece.line.back(), shift);
     if (distance(entry, far) < distance(entry, near)) std::swap(near, far);
@@ -191,6 +203,7 @@ class Tracer {
     const Shift shift{here.shift[0] + link.shift[0], here.shift[1] + link.shift[1]};
     const PairPiece& piece = pieces_[here.piece];
     const PairPoint entry = entry_to(link.to, shift, here);
+    // Along this piece to where the neighbour begins.
     const PairPoint exit = nearest(piece, here.shift, entry).at;
     walk(piece, here.shift, here.at, exit, path_);
     here.at = exit;
@@ -210,6 +223,7 @@ class Tracer {
     return nearest(other, shift, here.at).at;
   }
 
+  /// A piece is done: back to where the walk left the one before it.
   void turn_back() {
     stack_.pop_back();
     if (stack_.empty()) return;
@@ -234,6 +248,7 @@ class Tracer {
         stack.push_back({to, 0});
         continue;
       }
+      // All branches of this piece are done: it is needed if it is exact or one of them led to an exact one.
       const bool needed = pieces_[piece].exact || wanted[piece];
       wanted[piece] = needed;
       stack.pop_back();
@@ -244,13 +259,13 @@ class Tracer {
 
   const std::vector<PairPiece>& pieces_;
   const std::vector<std::vector<PieceLink>>& links_;
-  double joint_;
-  double detail_;
+  double joint_;              // lines that end closer together than this continue each other, length
+  double detail_;             // points this near to the line through the others are dropped, length
   std::vector<bool> wanted_;  // pieces that are still to be visited
   std::size_t left_ = 0;      // how many
   std::vector<Visit> stack_;
-  std::vector<PairPoint> path_;
-  double error_ = 0;
+  std::vector<PairPoint> path_;  // gone so far, unwrapped
+  double error_ = 0;             // the largest of the pieces' own
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 // Zero at more points than the functions have degrees of freedom on one piece: zero between them, too.
 constexpr int kOverlapSamples = 19;
-// On an overlap the slope along the line vanishes as well, up to this share of the rates that it is made of.
+// On an overlap the slope along the line is 0 too, up to this share of the rates that it is made of.
 constexpr double kOverlapSlope = 1e-8;
 // An overlap shorter than this share of the perimeter can't be told from a root.
 constexpr double kShortestOverlap = 1e-9;
@@ -36,8 +36,8 @@ bool LineSearch::may_overlap() {
   return vanishes(place(0.5 * (all.lo.free.x + all.hi.free.x)));
 }
 
-/// Is another equation surely off at a place of the line in the box? About in the middle, where two points and the
-/// slopes' bounds nearly always tell that curves do not run along each other.
+/// Is another equation surely not 0 at a place of the line in the box? Looks about in the middle, where one point on
+/// each side and the slopes' bounds nearly always tell that curves do not run along each other. False: not known.
 bool LineSearch::is_apart_midway() const {
   const PlaneCurve::Component& of_free = free().component(guide_);
   const PlaneCurve::Component& of_bound = bound().component(guide_);
@@ -51,6 +51,7 @@ bool LineSearch::is_apart_midway() const {
   const double across = std::clamp((level - of_bound.first) / (of_bound.last - of_bound.first), 0.0, 1.0);
   const CurvePoint on_free = free().point(free().lo() + share * free().width());
   const CurvePoint on_bound = bound().point(bound().lo() + across * bound().width());
+  // The guide is nearly 0 at the two points. Its slope's bounds tell how far y may be from the line there.
   const double off = on_free.value(guide_) - on_bound.value(guide_) - shift;
   const Range way = Range{off, off} / bound().slope(guide_);  // of the bound contact to where the guide is 0
   if (on_bound.x + way.least < bound().lo() || on_bound.x + way.most > bound().hi()) return false;
@@ -59,12 +60,14 @@ bool LineSearch::is_apart_midway() const {
     if (row == guide_) continue;
     const double turns = (free_is_a_ ? 1 : -1) * sides_.shift(row, limits_);
     const double residual = on_free.value(row) - on_bound.value(row) - turns;
+    // Bounds on r_k on the line itself.
     const Range there = Range{residual, residual} - way * bound().slope(row);
     if (there.least > rounding || there.most < -rounding) return true;
   }
   return false;
 }
 
+/// Are all residuals 0 but for rounding? The guide's is by construction.
 bool LineSearch::vanishes(const Place& place) const {
   const double rounding = residual_rounding(place);
   for (std::size_t row = 0; row < free().rows(); ++row) {
@@ -73,7 +76,7 @@ bool LineSearch::vanishes(const Place& place) const {
   return true;
 }
 
-/// What a residual that is 0 may be off.
+/// What a residual that is 0 may be computed as, radians: Theta's accuracy, and the rounding of places times all rates.
 double LineSearch::residual_rounding(const Place& place) const {
   double rates = 0;
   for (const double rate : place.free.rates()) rates += std::abs(rate);
@@ -121,7 +124,7 @@ bool LineSearch::slopes_vanish(const Place& at) const {
   return true;
 }
 
-/// The line's farthest place between two at which it goes different ways.
+/// Where dy/dx changes sign between two places: the line's extreme y there, by bisection to the last bit.
 LineSearch::Place LineSearch::turn_between(const Place& one, const Place& two) const {
   double lo = one.free.x;
   double hi = two.free.x;

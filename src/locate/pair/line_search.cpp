@@ -29,6 +29,7 @@ namespace {
 constexpr double kGuideShare = 0.05;
 // The set within the tolerance is taken as a band about the line: no wider than the box by this factor.
 constexpr double kWidestBand = 1;
+// Rounds of Newton's method or bisection at most.
 constexpr int kMostLineRounds = 100;
 // How far a band may bend, in parts of its half width, to be taken as straight.
 constexpr double kBandBend = 0.5;
@@ -38,7 +39,8 @@ constexpr double kStraightShare = 0.1;
 // Newton's step below this share of a side leaves less than rounding.
 constexpr double kLastSideStep = 1e-10;
 
-/// Where one component of a side, monotone, has this value.
+/// Where one component of a side, monotone, has this value: Newton's method, kept in the bracket by bisection. Beyond
+/// the side's ends the component is continued by its tangents there.
 double solve_side(const BoxSide& side, std::size_t row, double target) {
   const PlaneCurve::Component& component = side.component(row);
   const double rise = component.last - component.first;
@@ -74,6 +76,7 @@ LineSearch::LineSearch(const PairBoxSides& sides, const PairLimits& limits, std:
 
 bool LineSearch::run() {
   if (!choose_guide()) return false;
+  // The whole line across the free side. It may leave the box through the bound side's ends.
   Stretch all{place(free().lo()), place(free().hi()), 0, limits_.covered};
   waiting_.push_back(std::move(all));
   while (!waiting_.empty()) {
@@ -84,12 +87,14 @@ bool LineSearch::run() {
   return true;
 }
 
-/// The steepest equation in one contact, where its slope keeps its sign.
+/// Chooses as guide the equation and the contact whose slope has the largest lower bound in size, with one sign: there
+/// the equation has one solution y for each x, and the least error in y. Sets `margin_`.
 bool LineSearch::choose_guide() {
   double steepest = 0;
   for (std::size_t row = 0; row < sides_.a.rows(); ++row) {
     steepest = std::max({steepest, sides_.a.slope(row).size(), sides_.b.slope(row).size()});
   }
+  // The largest lower bound on a slope's size so far: the guide's |B_g'|.
   double best = kGuideShare * steepest;
   bool found = false;
   for (std::size_t row = 0; row < sides_.a.rows(); ++row) {
@@ -105,6 +110,7 @@ bool LineSearch::choose_guide() {
     }
   }
   if (!found) return false;
+  // |g| <= tolerance on a slope of at least `best`.
   margin_ = limits_.tolerance / best;
   return margin_ <= kWidestBand * bound().width();
 }
@@ -117,6 +123,7 @@ LineSearch::Place LineSearch::place(double x) const {
 
 /// Where the other contact is while the guide's component of the free one has this value.
 double LineSearch::bound_at(double value) const {
+  // g = A - B - shift = 0 with A of finger a: solved for whichever of the two is bound.
   const double shift = sides_.shift(guide_, limits_);
   return solve_side(bound(), guide_, value - (free_is_a_ ? shift : -shift));
 }
@@ -129,14 +136,18 @@ double LineSearch::residual(const Place& place, std::size_t row) const {
 double LineSearch::direction(const Place& place) const { return place.free.slope(guide_) / place.bound.slope(guide_); }
 
 double LineSearch::residual_slope(const Place& place, std::size_t row) const {
+  // By the chain rule, y following x along the line.
   const double slope = place.free.slope(row) - place.bound.slope(row) * direction(place);
   return free_is_a_ ? slope : -slope;
 }
 
+/// Bounds by interval arithmetic on a stretch: on y, dy/dx = A_g' / B_g', dr_k/dx = A_k' - B_k' dy/dx, and the
+/// tolerance of each r_k.
 LineSearch::Bounds LineSearch::bounds(const Stretch& stretch) const {
   const double width = stretch.hi.free.x - stretch.lo.free.x;
   Bounds bounds;
   const Range guide_free = free().slope_between(stretch.lo.free, stretch.hi.free, guide_);
+  // y is monotone along the stretch if A_g' keeps its sign (B_g' does): then its ends bound it.
   const Range ends = hull(stretch.lo.bound.x, stretch.hi.bound.x);
   CurvePoint bound_lo = stretch.lo.bound;
   CurvePoint bound_hi = stretch.hi.bound;
@@ -153,6 +164,7 @@ LineSearch::Bounds LineSearch::bounds(const Stretch& stretch) const {
     const Range slope_bound = bound().slope_between(bound_lo, bound_hi, row);
     const Range slope = slope_free - slope_bound * bounds.direction;
     bounds.slope.push_back(free_is_a_ ? slope : Range{-slope.most, -slope.least});
+    // Within the tolerance g may be off by it, y by tolerance / |B_g'|, and r_k by |B_k'| times that, besides its own.
     const double tolerance = stretch.covered ? kTurnAccuracy : limits_.tolerance;
     bounds.within.push_back(row == guide_ ? tolerance : tolerance * (1 + (slope_bound / guide_bound).size()));
   }
@@ -166,6 +178,7 @@ PairPoint LineSearch::contacts(const Place& place) const {
 }
 
 bool LineSearch::is_inside(const Place& place) const {
+  // y is known to the accuracy of g over its slope.
   const double slack = bound().same_place(limits_) + kTurnAccuracy / std::abs(place.bound.slope(guide_));
   return place.bound.x >= bound().lo() - slack && place.bound.x <= bound().hi() + slack;
 }
@@ -183,13 +196,14 @@ bool LineSearch::clip(Stretch& stretch, double margin) const {
   const double hi = stretch.hi.bound.x;
   if (turns_round(stretch)) return true;
   if (std::max(lo, hi) < least || std::min(lo, hi) > most) return false;
+  // y is monotone along the stretch: each edge is met once at most.
   const Stretch whole = stretch;
   if (lo < least || lo > most) stretch.lo = at_edge(whole, lo < least ? least : most);
   if (hi < least || hi > most) stretch.hi = at_edge(whole, hi < least ? least : most);
   return stretch.hi.free.x >= stretch.lo.free.x;
 }
 
-/// Where the line, monotone, reaches an edge of the box.
+/// Where the line, monotone in y, reaches y = edge: Newton's method from the chord, kept in the bracket by bisection.
 LineSearch::Place LineSearch::at_edge(const Stretch& stretch, double edge) const {
   double lo = stretch.lo.free.x;
   double hi = stretch.hi.free.x;
@@ -209,6 +223,7 @@ LineSearch::Place LineSearch::at_edge(const Stretch& stretch, double edge) const
   return at;
 }
 
+/// Leaves both halves to be decided, the lower one first.
 void LineSearch::split(const Stretch& stretch) {
   const Place middle = place(0.5 * (stretch.lo.free.x + stretch.hi.free.x));
   waiting_.push_back({middle, stretch.hi, stretch.depth + 1, stretch.covered});
@@ -218,6 +233,7 @@ void LineSearch::split(const Stretch& stretch) {
 void LineSearch::decide(Stretch stretch) {
   beat();
   ++findings_.counts.intervals;
+  // Beyond the bound side by more than the margin nothing of the box is within the tolerance.
   if (!clip(stretch, margin_)) return;
   const Bounds along = bounds(stretch);
   if (along.bound_x.most < bound().lo() - margin_ || along.bound_x.least > bound().hi() + margin_) return;
@@ -228,12 +244,14 @@ void LineSearch::decide(Stretch stretch) {
   double turn = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     if (row == guide_) continue;
+    // The cone on r_k misses its tolerance: nothing is on this stretch.
     const Range r = value_range(residual(stretch.lo, row), residual(stretch.hi, row), along.slope[row], width);
     if (r.least > along.within[row] || r.most < -along.within[row]) return;
     size = std::max(size, r.size() / along.within[row]);
     spread = std::max(spread, r.spread() / along.within[row]);
     turn = std::max(turn, r.size());
   }
+  // Before halving, which would never end on an overlap.
   std::vector<Place> samples;
   if (overlaps(stretch, samples)) {
     take_overlap(stretch, std::move(samples));
@@ -248,15 +266,18 @@ void LineSearch::decide(Stretch stretch) {
     return;
   }
   if (stretch.depth > 0) --budget_;
+  // A stretch as short as rounding, or one on which every r_k is 0 to rounding: no halving can tell more.
   const bool tiny = width <= free().same_place(limits_);
   const bool zero = turn <= kTurnAccuracy && !turns_round(stretch);
   if (!tiny && !zero) {
+    // One residual is monotone: at most one root, and an interval within its tolerance.
     const std::size_t row = steepest(along);
     if (row != guide_) {
       take_monotone(stretch, along, row);
       return;
     }
   }
+  // Straight enough to be a band, and all of it in or out, or surely within the tolerance.
   const bool straight = along.direction.spread() * width <= kBandBend * margin_;
   if (tiny || (straight && (size <= 1 || spread <= kSmallVariation || zero))) {
     if (take_flat(stretch, along, tiny || zero)) return;
@@ -265,7 +286,8 @@ void LineSearch::decide(Stretch stretch) {
   split(stretch);
 }
 
-/// The row whose residual is surely monotone and changes most; the guide where there is none.
+/// The row whose residual is surely monotone and steepest, by the lower bound on its slope; the guide where there is
+/// none.
 std::size_t LineSearch::steepest(const Bounds& along) const {
   std::size_t best = guide_;
   double steepness = 0;
@@ -280,7 +302,9 @@ std::size_t LineSearch::steepest(const Bounds& along) const {
   return best;
 }
 
-/// The residuals hardly vary: all of the stretch is in or out as its middle is. False: roots may be left in it.
+/// The residuals vary by less than a share of their tolerances, or are within them all along: all of the stretch is in
+/// or out as its middle is. `is_point`: no halving can tell more. False: the stretch is listed, its roots may be left
+/// in it.
 bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_point) {
   const Place middle = place(stretch.lo.free.x + 0.5 * (stretch.hi.free.x - stretch.lo.free.x));
   double largest = 0;
@@ -290,6 +314,7 @@ bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_
     if (r > along.within[row]) return true;
     largest = std::max(largest, r);
   }
+  // Within each tolerance on the line, and yet perhaps nowhere within all of them.
   if (passes_by(stretch.lo, stretch.hi, along.bound_x)) return true;
   if (!stretch.covered) add_piece(stretch.lo, stretch.hi, along.bound_x);
   if (!is_point && !stretch.covered) return false;
@@ -297,11 +322,14 @@ bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_
   return true;
 }
 
+/// Lists the part of the stretch that is within the tolerance, and the root in it if there is one.
 void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row) {
   const double within = along.within[row];
   const double at_lo = residual(stretch.lo, row);
   const double at_hi = residual(stretch.hi, row);
+  // A monotone residual lies between its values at the ends.
   if (std::min(at_lo, at_hi) > within || std::max(at_lo, at_hi) < -within) return;
+  // Where the monotone residual comes within its tolerance, and where it leaves it.
   Place lo = std::abs(at_lo) <= within ? stretch.lo : solve(row, std::copysign(within, at_lo), stretch.lo, stretch.hi);
   Place hi = std::abs(at_hi) <= within ? stretch.hi : solve(row, std::copysign(within, at_hi), stretch.lo, stretch.hi);
   // The other equations narrow what this one leaves; on so short a stretch they are straight.
@@ -319,10 +347,12 @@ void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std:
   }
   const Range y = bounds({lo, hi, 0, false}).bound_x;
   if (passes_by(lo, hi, y)) return;
+  // A change of sign, or an end that is 0 to rounding.
   if ((at_lo <= 0) != (at_hi <= 0) || std::abs(at_lo) <= kTurnAccuracy || std::abs(at_hi) <= kTurnAccuracy) {
     Place root = std::abs(at_lo) <= kTurnAccuracy   ? stretch.lo
                  : std::abs(at_hi) <= kTurnAccuracy ? stretch.hi
                                                     : solve(row, 0, stretch.lo, stretch.hi);
+    // Of more than two equations the others must vanish there as well.
     bool exact = true;
     for (std::size_t other = 0; other < free().rows(); ++other) {
       exact = exact && std::abs(residual(root, other)) <= kRootTurn;
@@ -333,11 +363,13 @@ void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std:
     const std::size_t p = std::min(guide_, row);
     const std::size_t q = std::max(guide_, row);
     const double determinant = a.slope(q) * b.slope(p) - a.slope(p) * b.slope(q);
+    // A root beyond the bound side is not in this box.
     if (is_inside(root) && (exact || !stretch.covered)) add_root(root, determinant > 0 ? 1 : -1, exact);
   }
   if (!stretch.covered) add_piece(lo, hi, y);
 }
 
+/// Newton's method along the line from the chord, kept in the bracket by bisection.
 LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& from, const Place& to) const {
   double lo = from.free.x;
   double hi = to.free.x;
@@ -358,8 +390,9 @@ LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& 
   return at;
 }
 
-/// Off the line, where the guide is off as well, a residual may be larger than the tolerance on it: is there no place
-/// beside the line, between these two, where all are within it? Told where the equations are straight.
+/// Is there no place beside the line, between these two, where all equations are within the tolerance? `within` allows
+/// each residual as much as the guide's own tolerance can add; together the equations may allow less. Told by those
+/// that are straight here: each cuts a polygon, and an empty one says yes.
 bool LineSearch::passes_by(const Place& lo, const Place& hi, const Range& y) const {
   const double least = std::max(y.least - margin_, bound().lo());
   const double most = std::min(y.most + margin_, bound().hi());
@@ -370,6 +403,7 @@ bool LineSearch::passes_by(const Place& lo, const Place& hi, const Range& y) con
   const double bend = kStraightShare * limits_.tolerance;
   Polygon left{{lo.free.x, least}, {hi.free.x, least}, {hi.free.x, most}, {lo.free.x, most}};
   for (std::size_t row = 0; row < free().rows(); ++row) {
+    // How far the equation is from straight on the rectangle that the polygon starts from, in x and in y.
     const double along = free().slope_between(lo.free, hi.free, row).spread() * width;
     const double across = bound().slope_between(bound_lo, bound_hi, row).spread() * (most - least);
     if (along + across <= bend) left = within_row(left, lo, row, limits_.tolerance + bend + kTurnAccuracy);
@@ -384,11 +418,13 @@ Polygon LineSearch::within_row(const Polygon& polygon, const Place& at, std::siz
   return within(polygon, {at.free.x, at.bound.x}, residual(at, row), slope, most);
 }
 
-/// Of a band what every equation leaves, where it is straight from one end of the band to the other.
+/// The part of a band in which every equation is within the tolerance, of those that are straight from one end of the
+/// band to the other.
 Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi) const {
   const double width = hi.free.x - lo.free.x;
   Polygon left = band;
   for (std::size_t row = 0; row < free().rows(); ++row) {
+    // Its tangent at one end against its value at the other one.
     const double bend = residual(lo, row) + width * residual_slope(lo, row) - residual(hi, row);
     if (!(std::abs(bend) <= kStraightShare * limits_.tolerance)) continue;
     left = within_row(left, lo, row, limits_.tolerance);
@@ -415,12 +451,14 @@ Polygon LineSearch::band(const Place& lo, const Place& hi, double bend) const {
   return narrowed.empty() ? inside : narrowed;
 }
 
-/// The band about the line between two places, as far as it lies in the box.
+/// Lists the band about the line between two places, as far as it lies in the box: as a polygon, if the line bends
+/// little against the band's width, else as a box.
 void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
   const Interval x{std::max(lo.free.x, free().lo()), std::min(hi.free.x, free().hi())};
   const Interval across{std::max(y.least - margin_, bound().lo()), std::min(y.most + margin_, bound().hi())};
   if (across.hi < across.lo) return;
   PairPiece piece;
+  // How far the line can be from its chord: dy/dx varies by so much.
   const double bend = bounds({lo, hi, 0, false}).direction.spread() * x.width();
   piece.error = length_of(std::min(bend, margin_));
   piece.corner = sides_.pivots();

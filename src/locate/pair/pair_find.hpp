@@ -16,9 +16,10 @@ using PairPoint = std::array<double, 2>;
 /// A box of them.
 using PairBox = std::array<Interval, 2>;
 
-/// Whole periods of each.
+/// Whole perimeters that are added to s and to t.
 using Shift = std::array<double, 2>;
 
+/// The same pair, or box, by another name on a closed outline.
 inline PairPoint moved(const PairPoint& point, const Shift& shift) {
   return {point[0] + shift[0], point[1] + shift[1]};
 }
@@ -37,6 +38,7 @@ PairBox box_about(const Points& points) {
   return box;
 }
 
+/// In the plane of s and t, not across s = 0 or t = 0.
 inline double distance(const PairPoint& one, const PairPoint& two) {
   const double s = one[0] - two[0];
   const double t = one[1] - two[1];
@@ -63,8 +65,10 @@ struct PairPiece {
 
 /// What a search leaves of the boxes that it looked at.
 struct PairFindings {
+  // In the order in which they were found, as are the roots.
   std::vector<PairPiece> pieces;
   std::vector<PairRoot> roots;
+  // Boxes that were neither excluded nor listed, for the budget was used up.
   std::vector<PairBox> unresolved;
   SearchCounts counts;
 };
@@ -77,6 +81,7 @@ struct PairLimits {
   bool facing = false;    // the last row is modulo 2 pi
   bool covered = false;   // inside a set that is within the tolerance and already listed: only its roots are missing
 
+  /// For a box inside a listed set: its roots alone are looked for, to rounding.
   PairLimits inside() const {
     PairLimits limits = *this;
     limits.tolerance = kTurnAccuracy;

@@ -40,11 +40,13 @@ class SetsOfTwo {
   explicit SetsOfTwo(const ContactEquations& question)
       : question_(question), part_(question.part), turning_(part_.turning()), period_(part_.perimeter()) {}
 
+  /// Kind, start and roots of a cluster. Without a root the start is where the largest |f_k| is least.
   FoundSet set_of(const PairCluster& cluster) const {
     const std::vector<PairRoot> roots = distinct_roots(cluster);
     const PairRoot start = roots.empty() ? nearest_miss(cluster) : roots.front();
     FoundSet found{kind_of(cluster, roots, start), start.at, cluster.extent, cluster.whole_loop, {}};
     for (const PairRoot& root : roots) found.roots.push_back(root.at);
+    // The best place of pivots can be a root of all equations that none of the finds was.
     const bool may_be_root = roots.empty() && start.corner && question_.is_overdetermined();
     if (may_be_root && residual_at(question_, start.at) <= kRootTurn) found.roots.push_back(start.at);
     found.family.assign(cluster.family.begin(), cluster.family.end());
@@ -63,16 +65,19 @@ class SetsOfTwo {
       found.push_back(first);
       return found;
     }
+    // Most clusters have one root and need no sorting.
     if (cluster.roots.size() == 1) return is_exact(cluster.roots.front()) ? cluster.roots : found;
     std::vector<PairRoot> roots = cluster.roots;
     std::sort(roots.begin(), roots.end(), [](const PairRoot& one, const PairRoot& two) { return one.at < two.at; });
     for (const PairRoot& root : roots) {
+      // Each root is compared with all found before: few are in one cluster.
       if (!is_exact(root)) continue;
       const auto same =
           std::find_if(found.begin(), found.end(), [&](const PairRoot& other) { return is_same(other, root); });
       if (same == found.end()) {
         found.push_back(root);
       } else {
+        // Found with both signs: the curves touch there, J is singular.
         if (differ_in_sign(*same, root)) same->sign = 0;
         same->corner = same->corner && root.corner;
       }
@@ -98,6 +103,7 @@ class SetsOfTwo {
     for (Eigen::Index p = 0; p + 1 < f.size(); ++p) {
       for (Eigen::Index q = p + 1; q < f.size(); ++q) {
         const auto determinant = [&](const Matrix& by) { return by(p, 0) * by(q, 1) - by(p, 1) * by(q, 0); };
+        // Below 0: det J of these two rows changes sign from one find to the other.
         const double product = determinant(jacobian[0]) * determinant(jacobian[1]);
         if (std::abs(product) > std::abs(largest)) largest = product;
       }
@@ -105,6 +111,7 @@ class SetsOfTwo {
     return largest < 0;
   }
 
+  /// Are two finds one root? Where they are within rounding, or near to each other and f is still 0 half way.
   bool is_same(const PairRoot& one, const PairRoot& two) const {
     const double far = std::max(periodic(one.at[0], two.at[0]), periodic(one.at[1], two.at[1]));
     if (far <= 2 * kLengthAccuracy * period_) return true;
@@ -114,6 +121,7 @@ class SetsOfTwo {
     return residual_at(question_, middle) <= kRootTurn;
   }
 
+  /// The shorter way from one place to another, below 0 backwards; and its length.
   double signed_way(double from, double to) const { return part_.boundary().offset(from, to); }
   double periodic(double one, double two) const { return std::abs(signed_way(one, two)); }
 
@@ -121,6 +129,7 @@ class SetsOfTwo {
   /// grid, by least squares from their best place and from the ends of the set.
   PairRoot nearest_miss(const PairCluster& cluster) const {
     PairPoint best = least_on_grids(cluster.extent);
+    // With corners f is set-valued and has no Jacobian everywhere: the grids alone.
     if (!part_.corners().empty()) return {best, 0, cluster.corner};
     double least = residual_at(question_, best);
     const PairBox& whole = cluster.extent;
@@ -136,6 +145,8 @@ class SetsOfTwo {
     return {best, 0, cluster.corner};
   }
 
+  /// The place of the least residual on ever finer grids: each about the best place so far. Of a set with
+  /// several minima it may be any.
   PairPoint least_on_grids(const PairBox& whole) const {
     PairBox box = whole;
     PairPoint best{box[0].middle(), box[1].middle()};
@@ -147,6 +158,7 @@ class SetsOfTwo {
       for (const std::size_t finger : {0U, 1U}) {
         for (std::size_t i = 0; i <= kGrid; ++i) {
           places[finger][i] = box[finger].lo + box[finger].width() * static_cast<double>(i) / kGrid;
+          // Tangents once for each line of the grid, not for each of its points.
           if (smooth) tangents[finger][i] = tangents_of(question_, finger, places[finger][i]);
         }
       }
@@ -162,6 +174,7 @@ class SetsOfTwo {
         }
       }
       for (const std::size_t k : {0U, 1U}) {
+        // Half as wide in each direction, but never beyond the set.
         const double reach = 0.25 * box[k].width();
         box[k] = {std::max(whole[k].lo, best[k] - reach), std::min(whole[k].hi, best[k] + reach)};
       }
@@ -169,7 +182,7 @@ class SetsOfTwo {
     return best;
   }
 
-  /// f and its Jacobian; the facing equation is the last row.
+  /// f and its Jacobian J by (s, t), eqs. (8) and (9); the facing equation is the last row, to the nearest whole turn.
   void linearize(const PairPoint& at, Eigen::VectorXd& f, Matrix& jacobian) const {
     const auto count = static_cast<Eigen::Index>(question_.readings.size());
     f.resize(static_cast<Eigen::Index>(question_.rows()));
@@ -188,7 +201,8 @@ class SetsOfTwo {
     jacobian.row(count) << s0.curvature, -t0.curvature;
   }
 
-  /// Levenberg and Marquardt's method, kept within a box.
+  /// Where the sum of all f_k^2 is least near `at`: Levenberg and Marquardt's method, kept within a box. Damping grows
+  /// where a step is no better and falls where it is.
   PairPoint least_squares(PairPoint at, const PairBox& box) const {
     constexpr int kMostSteps = 60;
     const double no_way = kStandstill * period_;
@@ -199,6 +213,7 @@ class SetsOfTwo {
     Matrix next_jacobian;
     double damping = 1e-6;
     for (int step = 0; step < kMostSteps && damping < 1e12; ++step) {
+      // Marquardt's scaling: the diagonal times 1 + damping, so that units of s and t do not matter.
       Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
       normal.diagonal() *= 1 + damping;
       const Eigen::Vector2d move = normal.ldlt().solve(-jacobian.transpose() * f);
@@ -223,6 +238,8 @@ class SetsOfTwo {
     return at;
   }
 
+  /// The kind of a cluster. With as many equations as unknowns the signs of det J add up to 0 where the curves touch:
+  /// then one goes to the other's far side and comes back, so that a change of a reading can make all roots vanish.
   Kind kind_of(const PairCluster& cluster, const std::vector<PairRoot>& roots, const PairRoot& start) const {
     if (cluster.exact) return Kind::stretch;
     if (start.corner) return Kind::corner;
@@ -234,6 +251,8 @@ class SetsOfTwo {
       return crossed ? Kind::crossing : Kind::touching;
     }
     const bool many_rows = question_.is_overdetermined();
+    // Each find of more than two equations has the sign of two of them, which need not be the same two: signs do not
+    // add up.
     if (many_rows && roots.size() == 1) return roots.front().sign != 0 ? Kind::crossing : Kind::touching;
     return sum != 0 ? Kind::crossing : Kind::touching;
   }
@@ -247,6 +266,7 @@ class SetsOfTwo {
 }  // namespace
 
 std::vector<Placement> make_placements(const ContactEquations& question, const std::vector<PairCluster>& clusters) {
+  // Kinds and roots first, then the order, then the placements in that order.
   const SetsOfTwo sets(question);
   const PlacementMaker maker(question);
   struct Ranked {
@@ -264,6 +284,7 @@ std::vector<Placement> make_placements(const ContactEquations& question, const s
     const double rounded = std::round(boundary.canonical(set.start[0]) / grain);
     ranked.push_back({rounded, boundary.canonical(set.start[1]), std::move(set)});
   }
+  // Ordered by s to the accuracy of roots, then by t, then as found.
   std::vector<std::size_t> order(ranked.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t two) {

@@ -26,7 +26,8 @@
 namespace rollfix::locating {
 namespace {
 
-/// Does a segment come closer than `slack` to a box?
+/// Does a segment come closer than `slack` to a box, along both axes? Clips the segment's parameter by the widened
+/// box's four sides.
 bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, double slack) {
   for (const std::size_t k : {0U, 1U}) {
     if (std::max(a[k], b[k]) < box[k].lo - slack || std::min(a[k], b[k]) > box[k].hi + slack) return false;
@@ -37,6 +38,7 @@ bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, d
     const double step = b[k] - a[k];
     const double least = box[k].lo - slack - a[k];
     const double most = box[k].hi + slack - a[k];
+    // Parallel to these two sides: outside of both, or they cut nothing off.
     if (step == 0) {
       if (least > 0 || most < 0) return false;
       continue;
@@ -49,6 +51,7 @@ bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, d
 
 using Corners = boost::container::small_vector<PairPoint, 8>;
 
+/// The corners of a piece's hull, or of its box where it has none, moved by `shift`.
 Corners polygon_of(const PairPiece& piece, const Shift& shift) {
   Corners polygon;
   for (const PairPoint& point : piece.hull) polygon.push_back(moved(point, shift));
@@ -57,7 +60,8 @@ Corners polygon_of(const PairPiece& piece, const Shift& shift) {
   return {{box[0].lo, box[1].lo}, {box[0].hi, box[1].lo}, {box[0].hi, box[1].hi}, {box[0].lo, box[1].hi}};
 }
 
-/// Is there a direction of `one`'s edges, or across them, in which the two convex polygons are apart?
+/// Is there a direction, along one of `one`'s edges or across it, in which the two convex polygons are further apart
+/// than `slack`? Two convex polygons that are apart are so across an edge of one of them.
 bool separates(const Corners& one, const Corners& two, double slack) {
   for (std::size_t k = 0; k < one.size(); ++k) {
     const PairPoint& from = one[k];
@@ -66,6 +70,7 @@ bool separates(const Corners& one, const Corners& two, double slack) {
     if (length == 0) continue;
     const PairPoint along{(to[0] - from[0]) / length, (to[1] - from[1]) / length};
     for (const PairPoint& axis : {along, PairPoint{-along[1], along[0]}}) {
+      // What a polygon takes up along the axis.
       const auto span = [&](const Corners& polygon) {
         Interval interval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
         for (const PairPoint& point : polygon) {
@@ -90,17 +95,19 @@ bool boxes_meet(const PairBox& one, const PairBox& two, double slack) {
          two[1].lo <= one[1].hi + slack;
 }
 
-/// Do the pieces, the second one moved by `shift`? As far as they may be off, they do.
+/// Do the pieces come as near as `slack`, the second one moved by `shift`? Both errors are added to the slack.
 bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift, double slack) {
   const PairBox other = moved(two.box, shift);
   const double reach = slack + one.error + two.error;
   if (!boxes_meet(one.box, other, reach)) return false;
   if (one.line.empty() && two.line.empty()) {
+    // Two boxes meet where their intervals do. Else convex polygons: apart where an axis of either one separates them.
     if (one.hull.empty() && two.hull.empty()) return true;
     const Corners at_one = polygon_of(one, {0, 0});
     const Corners at_two = polygon_of(two, shift);
     return !separates(at_one, at_two, reach) && !separates(at_two, at_one, reach);
   }
+  // With a line against a box, or against another line segment by segment.
   if (two.line.empty()) return line_meets(one.line, {0, 0}, other, reach);
   if (one.line.empty()) return line_meets(two.line, shift, one.box, reach);
   for (std::size_t k = 0; k + 1 < one.line.size(); ++k) {
@@ -113,6 +120,7 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
   return false;
 }
 
+// A strip with more pieces than this is cut into bands of about so many each.
 constexpr std::size_t kPiecesOfBand = 1024;
 
 // What is found where a finger pivots may be a million pieces at one place, and each meets each. Those that begin in
@@ -126,11 +134,12 @@ bool is_a_point(const PairPiece& piece, double width) {
          std::max(piece.box[0].width(), piece.box[1].width()) + piece.error <= width;
 }
 
-/// Sets of numbers below `count`, at first one each.
+/// Disjoint sets of the numbers below `count` (union-find), at first of one number each.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
 
+  /// The number that stands for the set. Paths are halved on the way.
   std::size_t of(std::size_t number) {
     while (parent_[number] != number) number = parent_[number] = parent_[parent_[number]];
     return number;
@@ -141,6 +150,7 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
+/// Finds for each piece those that it touches, without looking at all pairs.
 class Linker {
  public:
   Linker(const std::vector<PairPiece>& pieces, const Boundary& boundary, double same_place)
@@ -154,12 +164,14 @@ class Linker {
   std::vector<std::vector<PieceLink>> run() {
     link();
     for (std::vector<PieceLink>& links : links_) {
+      // Exact neighbours first, otherwise in the order in which they were found.
       std::stable_partition(links.begin(), links.end(), [&](const PieceLink& link) { return pieces_[link.to].exact; });
     }
     return std::move(links_);
   }
 
  private:
+  /// The laps by which a piece can be moved to touch another one: none, or one either way in s and in t.
   std::vector<Shift> shifts() const {
     if (!boundary_.closed) return {{0, 0}};
     std::vector<Shift> all;
@@ -176,13 +188,15 @@ class Linker {
     return widened(pieces_[piece].box, pieces_[piece].error + room_[piece]);
   }
 
+  /// Links both ways. `shift` brings `two` to `one`.
   void join(std::size_t one, std::size_t two, const Shift& shift) {
     joined_.join(one, two);
     links_[one].push_back({two, shift});
     links_[two].push_back({one, {-shift[0], -shift[1]}});
   }
 
-  /// A family is walked along all of its links; elsewhere it is enough that pieces hang together.
+  /// Would a link between two pieces change nothing? They hang together already, and one of them is not exact: only a
+  /// family is walked along all of its links.
   bool adds_nothing(std::size_t one, std::size_t two) {
     return joined_.of(one) == joined_.of(two) && !(pieces_[one].exact && pieces_[two].exact);
   }
@@ -198,6 +212,7 @@ class Linker {
         left.push_back(k);
         continue;
       }
+      // The square that the box's corner is in; the first piece of each square is kept.
       const auto [at, is_first] = firsts.try_emplace({std::floor(box[0].lo / width), std::floor(box[1].lo / width)}, k);
       if (is_first) {
         left.push_back(k);
@@ -210,7 +225,8 @@ class Linker {
     return left;
   }
 
-  /// Most pieces are so far from s = 0 and t = 0 that on other laps they meet nothing.
+  /// The box around all pieces' reaches. A piece that does not meet it, moved by a shift, meets nothing on that lap:
+  /// most pieces are far from s = 0 and t = 0.
   PairBox box_around_all() const {
     PairBox all{Boundary::empty_arc(), Boundary::empty_arc()};
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
@@ -228,6 +244,7 @@ class Linker {
     along_s.reserve(swept.size());
     for (const std::size_t k : swept) along_s.push_back(reach_box(k)[0]);
     const auto width = [&](std::size_t at) {
+      // Widths in powers of two, those below a joint's alike.
       return std::ilogb(std::max(along_s[at].width(), kJointWidth * boundary_.perimeter));
     };
     std::vector<std::size_t> order = by_place(along_s);
@@ -254,6 +271,7 @@ class Linker {
   };
   using Strips = std::map<std::pair<int, bool>, Strip>;
 
+  /// Strips by the power of two of the pieces' reach along the slant, exact ones apart.
   Strips strips(const std::vector<std::size_t>& swept, const PairBox& whole) {
     Strips strips;
     for (const std::size_t k : swept) {
@@ -273,6 +291,7 @@ class Linker {
     return strips;
   }
 
+  /// Cuts a strip of many pieces into bands of equal height along t.
   void split_in_bands(Strip& strip, const Interval& t) const {
     const std::size_t count = 1 + strip.bands.front().size() / kPiecesOfBand;
     if (count == 1 || !(t.width() > 0)) return;
@@ -290,6 +309,7 @@ class Linker {
   /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
   /// one with a large error, has every narrow one looked at; and exact ones, which are joined from further off, too.
   void link() {
+    // From here on clumps are one piece each, with `room_` around it.
     if (pieces_.size() < 2) return;
     const std::vector<std::size_t> swept = clump();
     reach_.reserve(pieces_.size());
@@ -301,9 +321,12 @@ class Linker {
     for (const Shift& shift : shifts()) {
       const PairBox moved_whole = moved(whole, shift);
       for (const std::size_t one : swept) {
+        // No other piece, so moved, comes near this one.
         if (!boxes_meet(reach_box(one), moved_whole, 2 * kJointWidth * boundary_.perimeter)) continue;
         near.clear();
         for (const auto& [key, strip] : all) add_near(strip, one, shift, near);
+        // In an order that does not depend on strips and bands: which links are made first decides which ones add
+        // nothing.
         std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
           return std::tie(pieces_[a].box[0].lo, rank_[a]) < std::tie(pieces_[b].box[0].lo, rank_[b]);
         });
@@ -327,12 +350,14 @@ class Linker {
   void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) {
     const PairPiece& one = pieces_[piece];
     const double slack = slack_of(one.exact && strip.exact);
+    // Only those that begin in [from, to] along the slant can meet the piece: none is wider than `widest`.
     const double by = along_slant(shift);
     const double room = along_slant(PairPoint{slack, slack});
     const double from = reach_[piece].lo - by - strip.widest - room;
     const double to = reach_[piece].hi - by + room;
     const double t = strip.bands.size() > 1 ? reach_box(piece)[1].lo - shift[1] : 0;
     const double height = strip.bands.size() > 1 ? reach_box(piece)[1].width() : 0;
+    // A piece of this strip that meets [t, t + height] begins no more than `tallest` below it.
     const std::size_t last = strip.band_at(t + height + slack);
     for (std::size_t at = strip.band_at(t - slack - strip.tallest); at <= last; ++at) {
       const std::vector<std::size_t>& band = strip.bands[at];

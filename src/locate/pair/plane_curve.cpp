@@ -22,12 +22,13 @@ std::int32_t PlaneCurve::make_bounded(Node node, const Range* values) {
   return static_cast<std::int32_t>(nodes_.size() - 1);
 }
 
-/// An end as s.
+/// An end of a node, x, as a place s on the boundary: at a pivot the corner's.
 double PlaneCurve::end_of(const Node& node, double x) const {
   return node.on_one_piece() ? pivot_at(node).value_or(x) : x;
 }
 
 std::int32_t PlaneCurve::join(std::int32_t from, std::int32_t to) {
+  // Two halves of about equal count, so that the tree's depth is the logarithm of the number of pieces.
   if (to - from == 1) return from;
   const std::int32_t middle = from + (to - from) / 2;
   Node node;
@@ -55,10 +56,12 @@ void PlaneCurve::adopt(std::int32_t index, std::int32_t left, std::int32_t right
   for (const std::int32_t half : {left, right}) {
     if (half >= 0) nodes_[static_cast<std::size_t>(half)].parent = index;
   }
+  // Upwards as long as the new halves tell something new.
   while (index >= 0 && tighten(index)) index = node(index).parent;
 }
 
-/// Bounds on both halves are bounds on the whole. False: they leave no less.
+/// Bounds on both halves are bounds on the whole. False: they tell no more than the node knew already, or it has one
+/// child only.
 bool PlaneCurve::tighten(std::int32_t index) {
   Node& node = nodes_[static_cast<std::size_t>(index)];
   if (node.left < 0 || node.right < 0) return false;

@@ -19,12 +19,14 @@ namespace rollfix::locating {
 class CurvePoint {
  public:
   CurvePoint() = default;
+  /// At x; the numbers are still to be filled in.
   CurvePoint(double at, std::size_t rows, std::size_t rates) : x(at), rows_(rows) {
     numbers_.resize(2 * rows + rates, boost::container::default_init);
   }
 
-  double x = 0;
+  double x = 0;  // coordinate on the piece: s, or the angle of a pivot
 
+  /// Of component `row`: its value and its slope by x.
   double value(std::size_t row) const { return numbers_[row]; }
   double slope(std::size_t row) const { return numbers_[rows_ + row]; }
   std::span<const double> rates() const { return {numbers_.data() + 2 * rows_, numbers_.size() - 2 * rows_}; }
@@ -60,14 +62,15 @@ class PlaneCurve {
  public:
   static constexpr std::uint32_t kManyPieces = UINT32_MAX;
 
+  /// An interval of the tree: of x on one piece, or of s over many.
   struct Node {
     double lo = 0;  // of x, on one piece; else of s
     double hi = 0;
-    std::uint32_t piece = kManyPieces;
-    std::int32_t left = -1;  // children; none yet
+    std::uint32_t piece = kManyPieces;  // which piece, or kManyPieces
+    std::int32_t left = -1;             // children; none yet
     std::int32_t right = -1;
-    std::int32_t parent = -1;
-    std::uint32_t first = 0;  // both for who derives
+    std::int32_t parent = -1;  // -1: of the root, or not joined yet
+    std::uint32_t first = 0;   // both for who derives
     std::uint32_t last = 0;
     std::array<Range, 2> diagonals;  // of the first two components the sum and the difference
 
@@ -97,12 +100,13 @@ class PlaneCurve {
 
     double first() const { return by_one * one.first + by_two * two.first; }
     double last() const { return by_one * one.last + by_two * two.last; }
-    /// How far its slope gets from the middle.
+    /// How far its slope gets from the middle of its bounds, at most. The shared term is added up before its size is
+    /// taken, so that it cancels where by_one and by_two make it cancel.
     double slope_radius() const {
       return std::abs(shared()) + std::abs(by_one) * one.own.size() + std::abs(by_two) * two.own.size();
     }
-    /// A term whose slope is monotone is on one side of its chord, by a quarter of the slope's change times the width
-    /// at the most.
+    /// Bounds on its value over a node of this width. A term whose slope is monotone is on one side of its chord, by a
+    /// quarter of the slope's change times the width at most; `shared` and `own` hold half that change.
     Range value(double width) const {
       const double half = 0.5 * width;
       const Range bend = hull(0, shared()) + by_one * one.own + by_two * two.own;
@@ -111,6 +115,7 @@ class PlaneCurve {
     }
 
    private:
+    /// Half of what the shared term's slope changes by in the combination.
     double shared() const { return by_one * one.shared + by_two * two.shared; }
   };
 
@@ -138,25 +143,28 @@ class PlaneCurve {
   /// bounds that they have inside.
   virtual CurvePoint point(const Node& node, double x) const = 0;
 
-  /// One component's value and its slope by x, at x on a node of one piece.
+  /// One component's value and its slope by x.
   struct Place {
     double value = 0;
     double slope = 0;
   };
+  /// One component alone at x on a node of one piece: cheaper than `point`.
   virtual Place place(const Node& node, double x, std::size_t row) const = 0;
 
-  /// Bounds on a component's slope between two points of one piece.
+  /// Bounds on a component's slope by x between two points of one piece.
   virtual Range slope_between(const Node& node, const CurvePoint& one, const CurvePoint& two,
                               std::size_t row) const = 0;
 
  protected:
   explicit PlaneCurve(std::size_t rows) : rows_(rows) {}
 
+  /// How many nodes there are so far; the next one made has this index.
   std::size_t count() const { return nodes_.size(); }
   void reserve(std::size_t nodes) {
     nodes_.reserve(nodes);
     components_.reserve(nodes * rows_);
   }
+  /// The node over all of the curve; without one the curve has no pieces.
   void set_root(std::int32_t node) { root_ = node; }
   /// A node of one piece, with `component_of(row)`.
   template <class ComponentOf>
@@ -167,9 +175,10 @@ class PlaneCurve {
     nodes_.push_back(node);
     return static_cast<std::int32_t>(nodes_.size() - 1);
   }
-  /// A node of which no more is known than where its components are.
+  /// A node of which only bounds on its components' values are known, one range for each row. Returns its index.
   std::int32_t make_bounded(Node node, const Range* values);
-  /// A node over these, the last one not included. REQUIRES one at least.
+  /// A balanced tree over the nodes from .. to - 1, which are neighbours in order of s. Returns the index of its root.
+  /// The new bounds are the hulls of the halves'.
   std::int32_t join(std::int32_t from, std::int32_t to);
   /// Gives a node its halves, and tightens its bounds and its ancestors' by theirs.
   void adopt(std::int32_t index, std::int32_t left, std::int32_t right);
@@ -178,12 +187,15 @@ class PlaneCurve {
   /// Gives a node that has none its halves.
   virtual void divide(std::int32_t index) = 0;
 
+  /// Bounds on A_0 + A_1 and A_0 - A_1: sharper than from both values alone, for shared terms cancel.
   static void bound_diagonals(Node& node, const Component& one, const Component& two);
   double end_of(const Node& node, double x) const;
   bool tighten(std::int32_t index);
 
   std::size_t rows_;
+  // Grow only: an index stays good, references do not.
   std::vector<Node> nodes_;
+  // rows_ of each node.
   std::vector<Component> components_;
   std::int32_t root_ = -1;
 };

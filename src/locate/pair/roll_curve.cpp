@@ -21,6 +21,7 @@ namespace rollfix::locating {
 
 namespace {
 
+// So many shares of a piece at whose ends slopes are sampled: at more places than the polynomials have terms.
 constexpr int kConstantSamples = 20;
 // Nodes and points that there is room for at first.
 constexpr std::size_t kRoomOfPiece = 8;
@@ -44,6 +45,7 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
 
 // What is called for every place is inline.
 
+/// Contact c while the first one is at x on a piece that is no pivot; it is on one of these panels.
 inline RollCurve::Contact RollCurve::contact_at(const RollPiece& piece, double x, std::size_t c,
                                                 std::uint32_t first_panel, std::uint32_t last_panel) const {
   const double base = x + piece.offset[c];
@@ -53,6 +55,8 @@ inline RollCurve::Contact RollCurve::contact_at(const RollPiece& piece, double x
   return {{piece.angle[c] + at.angle, at.curvature}, panel};
 }
 
+/// Contact c at x on a piece. Beside an end of its spiral it takes the spiral's own limit: beyond a corner Theta
+/// differs.
 inline RollCurve::Contact RollCurve::contact_on_spiral(const RollPiece& piece, double x, std::size_t c) const {
   if (piece.pivot_at) return pivoted(piece, x, c);
   const Spiral& spiral = turning_.spirals()[piece.spiral[c]];
@@ -67,13 +71,15 @@ inline RollCurve::Contact RollCurve::contact_on_spiral(const RollPiece& piece, d
   return contact_at(piece, x, c, spiral.first_panel, spiral.last_panel);
 }
 
+/// Contact c at x on a node: its panel is between those of the node's two points.
 inline RollCurve::Contact RollCurve::contact_between(const Node& node, double x, std::size_t c) const {
   const RollPiece& piece = pieces_[node.piece];
   if (piece.pivot_at) return pivoted(piece, x, c);
   return contact_at(piece, x, c, panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c]);
 }
 
-/// A node over all pieces of this range.
+/// Cuts a range of s into pieces, with a node for each, and returns the index of a node over all of them; -1 where the
+/// range is no wider than rounding and no contact pivots.
 std::int32_t RollCurve::cut(const Interval& range) {
   const std::size_t before = pieces_.size();
   make_pieces(range);
@@ -87,11 +93,13 @@ std::int32_t RollCurve::cut(const Interval& range) {
   const auto contact_of = [&](std::size_t c) { return at[c]; };
   for (std::size_t k = before; k < pieces_.size(); ++k) {
     RollPiece& piece = pieces_[k];
+    // Contacts that stay on their spiral are the same at this piece's start as at the end of the piece before.
     const bool goes_on = k > before && pieces_[k - 1].hi == piece.lo && !pieces_[k - 1].pivot_at && !piece.pivot_at;
     for (std::size_t c = 0; c < contacts_; ++c) {
       const bool is_known = goes_on && pieces_[k - 1].spiral[c] == piece.spiral[c];
       if (!is_known) at[c] = contact_on_spiral(piece, piece.lo, c);
     }
+    // The points at both ends of the piece, from which the node's bounds follow.
     const std::uint32_t first = add_point(contact_of);
     for (std::size_t c = 0; c < contacts_; ++c) at[c] = contact_on_spiral(piece, piece.hi, c);
     const std::uint32_t last = add_point(contact_of);
@@ -102,6 +110,7 @@ std::int32_t RollCurve::cut(const Interval& range) {
   return join(first_node, static_cast<std::int32_t>(count()));
 }
 
+/// A node over all first contacts in s, bounded by the part's tree alone.
 std::int32_t RollCurve::make_uncut(const Interval& s, const RollStrips::Span* spans) {
   Node node;
   node.lo = s.lo;
@@ -121,6 +130,8 @@ void RollCurve::divide(std::int32_t index) {
   }
 }
 
+/// Halves an interval of x at its middle. Both halves share the point there, so that halving costs one evaluation of
+/// each contact.
 void RollCurve::divide_on_piece(std::int32_t index) {
   const Node node = this->node(index);
   const double x = 0.5 * (node.lo + node.hi);
@@ -139,6 +150,8 @@ void RollCurve::divide_uncut(std::int32_t index) {
   const double middle = few ? s.lo : strips_.halve(spans, halves.data(), halves.data() + contacts_);
   std::int32_t left = -1;
   std::int32_t right = -1;
+  // Enough cuts inside: two uncut halves. Else (few cuts, or all at one end) the pieces themselves, under one node
+  // whose two children become this node's.
   if (middle > s.lo && middle < s.hi) {
     left = make_uncut({s.lo, middle}, halves.data());
     right = make_uncut({middle, s.hi}, halves.data() + contacts_);
@@ -153,8 +166,9 @@ void RollCurve::divide_uncut(std::int32_t index) {
   adopt(index, left, right);
 }
 
-/// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
-/// one passes a convex corner, or the tiny concave joint of a drawing (kJointTurn).
+/// Cuts the range of first contacts into pieces, wherever a contact passes from one spiral to the next. Puts pivots
+/// between them wherever a contact passes a convex corner, or the tiny concave joint of a drawing (kJointTurn). At each
+/// turn of the loop every contact's cursor is on the spiral that it goes on along from `here`.
 void RollCurve::make_pieces(const Interval& range) {
   const double same_place = kLengthAccuracy * turning_.perimeter();
   Cursors contacts;
@@ -173,11 +187,13 @@ void RollCurve::make_pieces(const Interval& range) {
       piece.spiral.push_back(static_cast<std::uint32_t>(contacts[c].index()));
       piece.offset.push_back(offset_of(c, contacts[c]));
       piece.angle.push_back(contacts[c].lift());
+      // The piece ends where the first of the contacts leaves its spiral.
       if (!contacts[c].is_last()) next = std::min(next, end_of(c));
     }
     if (range.hi - next <= same_place) next = range.hi;
     piece.lo = here;
     piece.hi = next;
+    // Contacts that pass within rounding of each other leave no piece between them.
     if (!(next - here > same_place)) pieces_.pop_back();
     here = std::max(here, next);
     bool moved = false;
@@ -186,6 +202,7 @@ void RollCurve::make_pieces(const Interval& range) {
       contacts[c].advance();
       moved = true;
     }
+    // At s = P of a closed part the corners are those of s = 0, which were passed first.
     if (moved && (here < range.hi || !turning_.closed())) pass_corners(here, contacts);
   }
 }
@@ -193,6 +210,7 @@ void RollCurve::make_pieces(const Interval& range) {
 /// The contacts that stand at a joint while the first one is at s, which their cursors have just passed.
 void RollCurve::pass_corners(double s, const Cursors& contacts) {
   if (part_.corners().empty()) return;
+  // The jump of Theta that contact c passes at s; empty where it is not at a joint.
   const auto jump_of = [&](const Cursor& ahead, std::size_t c) {
     const bool passes = std::abs(s + offset_of(c, ahead) - ahead.spiral().lo) <= kLengthAccuracy * turning_.perimeter();
     return passes ? std::optional(ahead.jump()) : std::nullopt;
@@ -201,6 +219,7 @@ void RollCurve::pass_corners(double s, const Cursors& contacts) {
   std::size_t corners = 0;
   for (std::size_t c = 0; c < contacts_; ++c) corners += pivots(jump_of(contacts[c], c).value_or(0)) ? 1 : 0;
   if (corners == 0) return;
+  // {Theta} of each contact at s. A concave corner's jump is no set: the curve jumps, and only its pieces count.
   std::vector<Range> tangents;
   for (std::size_t c = 0; c < contacts_; ++c) {
     const std::optional<double> jump = jump_of(contacts[c], c);
@@ -209,6 +228,7 @@ void RollCurve::pass_corners(double s, const Cursors& contacts) {
     tangents.push_back({std::min(before, after), std::max(before, after)});
   }
   add_pivots(s, tangents);
+  // Two contacts or more pivot independently: besides its edges the curve is all of a patch there.
   if (corners < 2) return;
   for (std::size_t c = 1; c < contacts_; ++c) {
     const double shift = equations_.shifts[c - 1];
@@ -217,7 +237,9 @@ void RollCurve::pass_corners(double s, const Cursors& contacts) {
   patches_.push_back({s, tangents, equations_.facing.value_or(0)});
 }
 
-/// One contact pivots while the others stand at one limit of their tangents or at the other.
+/// Pieces of the pivots at s: for each contact that stands at a corner, it pivots while the others there stand at one
+/// limit of their tangents, then at the other. x runs from 0 to the corner's turn. With two contacts at corners these
+/// are the four edges of their patch.
 void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
   for (std::size_t contact = 0; contact < tangents.size(); ++contact) {
     if (tangents[contact].spread() == 0) continue;
@@ -237,8 +259,9 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
   }
 }
 
-/// Bounds on the two rates of a component never see that they are the same: a whole lap, a symmetric part. Where the
-/// slope vanishes at more points than the turning function's polynomials have terms it vanishes in between.
+/// Finds the components that do not change along a piece: a whole lap, arcs of one radius, a symmetric part's period.
+/// Bounds on both rates alone never show that the rates are the same. Where the slope vanishes at more points than the
+/// turning function's polynomials have terms it vanishes in between.
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
   piece.constant.assign(rows(), true);
   boost::container::small_vector<double, 4> rate(contacts_);
@@ -249,6 +272,7 @@ void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint3
       const double x = piece.lo + piece.width() * (k - 1) / kConstantSamples;
       for (std::size_t c = 0; c < contacts_; ++c) rate[c] = contact_on_spiral(piece, x, c).turning.curvature;
     }
+    // A slope below kNoSlope times the rates that it is made of is rounding.
     double scale = 1 / turning_.perimeter();
     for (std::size_t c = 0; c < contacts_; ++c) scale += std::abs(rates[c]);
     bool any = false;
@@ -257,6 +281,7 @@ void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint3
       if (std::abs(slope) > kNoSlope * scale) piece.constant[row] = false;
       any = any || piece.constant[row];
     }
+    // No component is left that may be constant.
     if (!any) return;
   }
 }
@@ -281,6 +306,7 @@ RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) c
 }
 
 CurvePoint RollCurve::point(const Node& node, double x) const {
+  // Beyond the node the curve goes on along its tangent at the nearer end.
   const double nearest = std::clamp(x, node.lo, node.hi);
   CurvePoint point(nearest, rows(), contacts_);
   evaluate([&](std::size_t c) { return contact_between(node, nearest, c).turning; }, point.values().data(),
@@ -291,6 +317,7 @@ CurvePoint RollCurve::point(const Node& node, double x) const {
   return point;
 }
 
+/// Makes room for so many points.
 void RollCurve::make_room(std::size_t points) {
   values_.resize(points * rows(), boost::container::default_init);
   rates_.resize(points * contacts_, boost::container::default_init);
@@ -300,6 +327,7 @@ void RollCurve::make_room(std::size_t points) {
 template <class ContactOf>
 std::uint32_t RollCurve::add_point(const ContactOf& contact_of) {
   const std::size_t index = points_++;
+  // Twice as many: each point is moved a constant number of times on average.
   if (points_ * contacts_ > panels_.size()) make_room(2 * points_);
   std::uint32_t* panels = &panels_[index * contacts_];
   const auto keep_panel = [&](std::size_t c) {
@@ -311,6 +339,7 @@ std::uint32_t RollCurve::add_point(const ContactOf& contact_of) {
   return static_cast<std::uint32_t>(index);
 }
 
+/// Bounds on component `row` between two points of a piece, `width` of x apart.
 inline RollCurve::Component RollCurve::component_between(const RollPiece& piece, std::size_t row, std::uint32_t first,
                                                          std::uint32_t last, double width) const {
   const double* rates_first = &rates_[first * contacts_];
@@ -321,11 +350,15 @@ inline RollCurve::Component RollCurve::component_between(const RollPiece& piece,
   component.first_slope = slope_of(rates_first, row);
   component.last_slope = slope_of(rates_last, row);
   component.value = hull(component.first, component.last);
+  // Its slope is 0, also where the two rates' bounds would leave a range.
   if (piece.constant[row]) return component;
   component.slope = slopes_of(piece, rates_first, rates_last, row);
+  // Half of what the slopes change by, of Theta at the first contact (shared by all components) and at the last (own).
   const double of_start = 0.5 * (rates_last[0] - rates_first[0]);
   component.shared = is_facing(row) ? of_start : -of_start;
   if (!is_facing(row)) component.own = hull(0, 0.5 * (rates_last[row + 1] - rates_first[row + 1]));
+  // Monotone: between its values at the ends. Else the sharper of the cone by the slope and the strip by the rates'
+  // change.
   if (component.slope.keeps_sign()) return component;
   const Range bend = 0.5 * width * (hull(0, component.shared) + component.own);
   component.value =
@@ -333,6 +366,7 @@ inline RollCurve::Component RollCurve::component_between(const RollPiece& piece,
   return component;
 }
 
+/// A node on [lo, hi] of a piece; `first` and `last` are the points at its ends.
 std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last) {
   Node node;
   node.lo = lo;

@@ -24,7 +24,9 @@ struct RollEquations {
   std::vector<double> shifts;    // added to each component, radians
   std::optional<double> facing;  // added to Theta(s)
 
+  /// Components: one for each reading, and the facing last.
   std::size_t rows() const { return lengths.size() + (facing ? 1 : 0); }
+  /// The first contact (0) and each reading's (k + 1).
   std::size_t contacts() const { return lengths.size() + 1; }
   /// From the first contact to contact c.
   double length_to(std::size_t c) const { return c == 0 ? 0 : lengths[c - 1]; }
@@ -41,7 +43,7 @@ class RollStrips {
     std::uint32_t last = 0;
   };
 
-  /// `range`: of first contacts.
+  /// `range`: of first contacts. `equations` must outlive it.
   RollStrips(const Part& part, const RollEquations& equations, const Interval& range);
 
   bool is_empty() const { return !is_wanted_; }
@@ -57,6 +59,7 @@ class RollStrips {
  private:
   class Walk;
 
+  /// Where a spiral starts, by its number in a Span; on the second lap beyond P.
   double joint(std::uint32_t index) const;
   double place_of(std::size_t contact, std::uint32_t index) const;
   std::uint32_t spiral_at(const Span& among, double base) const;
@@ -104,7 +107,10 @@ class RollCurve final : public PlaneCurve {
   /// `range`: of s, the first contacts whose rolls stay on the part.
   RollCurve(const Part& part, RollEquations equations, const Interval& range);
 
+  /// Where several contacts of this finger pivot at once: all are known from the start, for a curve of a part with
+  /// corners is cut at once.
   const std::vector<RollPatch>& patches() const { return patches_; }
+  /// Of the turning function, so far.
   std::size_t evaluations() const { return evaluations_; }
 
   std::optional<double> pivot_at(const Node& node) const override { return pieces_[node.piece].pivot_at; }
@@ -123,15 +129,19 @@ class RollCurve final : public PlaneCurve {
   };
   using Cursors = boost::container::small_vector<Cursor, 4>;  // of the contacts
 
+  /// On one piece at the middle of x; else by the tree over the part's spirals, or into pieces.
   void divide(std::int32_t index) override;
 
   bool is_facing(std::size_t row) const { return row + 1 == contacts_; }
+  /// Bounds on a component's slope while every rate is between its two values in `one` and `two`, as it is between two
+  /// points of a piece, on which rates are monotone.
   Range slopes_of(const RollPiece& piece, const double* one, const double* two, std::size_t row) const {
     if (piece.constant[row]) return {0, 0};
     const Range start = hull(one[0], two[0]);
     if (is_facing(row)) return start;
     return hull(one[row + 1], two[row + 1]) - start;
   }
+  /// A component's slope by x: kappa(s + L_k) - kappa(s), of the facing kappa(s).
   double slope_of(const double* rates, std::size_t row) const {
     return is_facing(row) ? rates[0] : rates[row + 1] - rates[0];
   }
@@ -155,10 +165,12 @@ class RollCurve final : public PlaneCurve {
                      std::uint32_t last_panel) const;
   Contact contact_on_spiral(const RollPiece& piece, double x, std::size_t c) const;
   Contact contact_between(const Node& node, double x, std::size_t c) const;
+  /// At a corner one contact's tangent turns with x at rate 1; the others stand still.
   static Contact pivoted(const RollPiece& piece, double x, std::size_t c) {
     return c == *piece.pivot ? Contact{{piece.angle[c] + x, 1}} : Contact{{piece.angle[c], 0}};
   }
-  /// `value` one per row, `rate` one per contact.
+  /// Components and rates at a point, from the contacts' tangents there: `value` one for each row, `rate` one for each
+  /// contact.
   template <class ContactOf>
   void evaluate(const ContactOf& contact_of, double* value, double* rate) const;
 
@@ -166,9 +178,11 @@ class RollCurve final : public PlaneCurve {
   const TurningFunction& turning_;
   RollEquations equations_;
   RollStrips strips_;
-  std::size_t contacts_;
+  std::size_t contacts_;  // equations_.contacts()
+  // In order of s within each range that was cut; `Node::piece` is an index into these.
   std::vector<RollPiece> pieces_;
   std::vector<RollPatch> patches_;
+  // Points are shared by neighbouring nodes: `Node::first` and `last` are indices of points.
   std::size_t points_ = 0;
   boost::container::vector<double> values_;         // of the points and of room for more: rows() of each
   boost::container::vector<double> rates_;          // contacts_ of each

@@ -39,8 +39,10 @@ class RollStrips::Walk {
 
   /// The first contact's place where the strip ends: an open boundary's last one never does.
   double end() const { return end_; }
+  /// The strip's chord at first contact s: Theta at this contact lies within [below, above] of it.
   double chord(double s) const { return block().chord(s - shift_) + lift_; }
   const TurningTree::Block& block() const { return strips_->tree_.block(level_, k_); }
+  /// To the next block of the level.
   void advance() {
     const bool is_last = k_ + 1 == strips_->tree_.count(level_);
     if (is_last) next_lap();
@@ -48,6 +50,7 @@ class RollStrips::Walk {
   }
 
  private:
+  /// To the boundary's start, one lap further.
   void next_lap() {
     shift_ += strips_->turning_.perimeter();
     lift_ += strips_->turning_.period_turn();
@@ -70,6 +73,7 @@ class RollStrips::Walk {
   double end_ = 0;
 };
 
+/// The spirals that each contact passes while the first one runs over the range; laps beyond the first are counted on.
 RollStrips::RollStrips(const Part& part, const RollEquations& equations, const Interval& range)
     : turning_(part.turning()),
       tree_(PartAccess::data(part).tree),
@@ -84,6 +88,7 @@ RollStrips::RollStrips(const Part& part, const RollEquations& equations, const I
     offset_.push_back(equations.length_to(c) - first.shift());
     winding_.push_back(first.winding());
     lift_.push_back(first.lift());
+    // Spirals of a further lap are counted on from the first lap's number of them.
     const double laps = last.winding() - first.winding();
     const auto first_index = static_cast<std::uint32_t>(first.index());
     const auto last_index = static_cast<std::uint32_t>(laps * count + static_cast<double>(last.index()));
@@ -100,6 +105,7 @@ double RollStrips::joint(std::uint32_t index) const {
 std::uint32_t RollStrips::spiral_at(const Span& among, double base) const {
   std::uint32_t first = among.first;
   std::uint32_t last = among.last;
+  // Spiral `first` starts at `base` or before, or is the first of all; those after `last` start beyond it.
   while (first < last) {
     const std::uint32_t middle = last - (last - first) / 2;
     if (joint(middle) <= base) {
@@ -117,15 +123,19 @@ std::size_t RollStrips::cuts(const Span* spans) const {
   return sum;
 }
 
-/// The first contact's place where this one passes into a spiral, to the bit as the cutting has it.
+/// The first contact's place at which a contact passes into spiral `index`, to the bit as `RollCurve::make_pieces` has
+/// it: uncut nodes and pieces then have the same ends. REQUIRES index > 0.
 double RollStrips::place_of(std::size_t contact, std::uint32_t index) const {
   const std::vector<Spiral>& spirals = turning_.spirals();
+  // The spiral before ends there: the cutting takes that end, not the next one's start, and takes laps off L in this
+  // order.
   const std::size_t before = index - 1;
   const double laps = winding_[contact] + (before < spirals.size() ? 0 : 1);
   return spirals[before % spirals.size()].hi - (equations_.length_to(contact) - laps * turning_.perimeter());
 }
 
 double RollStrips::halve(const Span* spans, Span* below, Span* above) const {
+  // Halves the longest span by number; the other contacts' spans are cut where they are at that moment.
   std::size_t longest = 0;
   const auto length = [&](std::size_t c) { return spans[c].last - spans[c].first; };
   for (std::size_t c = 1; c < equations_.contacts(); ++c) {
@@ -138,6 +148,7 @@ double RollStrips::halve(const Span* spans, Span* below, Span* above) const {
     const std::uint32_t next = c == longest ? middle : spiral_at(spans[c], place + offset_[c]);
     below[c] = {spans[c].first, c == longest ? middle - 1 : next};
     above[c] = {next, spans[c].last};
+    // A contact that passes its joint within rounding of the cut: the earlier of both places stands for both.
     if (next == spans[c].first) continue;
     const double other = place_of(c, next);
     if (other < first && other >= place - kLengthAccuracy * turning_.perimeter()) first = other;
@@ -145,6 +156,8 @@ double RollStrips::halve(const Span* spans, Span* below, Span* above) const {
   return first;
 }
 
+/// A walk along a contact's strips from first contact s on, of the lowest level whose blocks it passes no more than
+/// about kMostBlocks of: `bound` then takes a few steps, however many spirals there are.
 RollStrips::Walk RollStrips::walk(std::size_t contact, double s, const Span& span) const {
   std::size_t level = 1;
   while (level < tree_.top() && (span.last - span.first) >> level >= kMostBlocks) ++level;
@@ -153,8 +166,9 @@ RollStrips::Walk RollStrips::walk(std::size_t contact, double s, const Span& spa
   return walk;
 }
 
-/// What Theta at the end contact less Theta at the first one is while both are on these strips, or that of the first
-/// one alone.
+/// Bounds on Theta at the end contact less Theta at the first one for first contacts in [lo, hi], on which both are on
+/// one strip each; without an end contact on Theta at the first one. A difference of chords is straight: its values at
+/// lo and hi bound it.
 Range RollStrips::between(const Walk& start, const Walk* end, double lo, double hi) const {
   Range strip{start.block().below, start.block().above};
   double first = start.chord(lo);
@@ -166,12 +180,15 @@ Range RollStrips::between(const Walk& start, const Walk* end, double lo, double 
     last = end->chord(hi) - last;
     steepest += end->block().steepest;
   }
+  // Theta's own accuracy, the rounding of the angles, and that of the places where the chords are taken.
   const double rounding = kTurnAccuracy + kAngleRounding * (std::abs(first) + std::abs(last)) + same_place_ * steepest;
   return hull(first, last) + strip + Range{-rounding, rounding};
 }
 
+/// The same for all of s: the hull over the stretches on which no contact changes its strip.
 Range RollStrips::bound(const Interval& s, Walk start, Walk* end) const {
   Range all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  // Up to the next change of a strip; what lies before `lo` is in `all`.
   for (double lo = s.lo;;) {
     const double hi = std::min({start.end(), end != nullptr ? end->end() : s.hi, s.hi});
     const Range here = between(start, end, lo, hi);

@@ -26,6 +26,7 @@ struct Scalar {
 /// The last coefficient is the one that closes the trailing edge.
 constexpr double kThickness[] = {0, 5 * 0.2969, -5 * 0.126, 0, -5 * 0.3516, 0, 5 * 0.2843, 0, -5 * 0.1036};
 
+/// t and its derivatives by w; 0 at the nose and, exactly, at the trailing edge.
 Scalar half_thickness(double w) {
   constexpr const double* k = kThickness;
   // The same sum divided by 1 - w, so that it vanishes at the trailing edge exactly: partial sums of the coefficients.
@@ -43,11 +44,13 @@ struct Camber {
   double place = 1;   // p; 1 where there is no camber
   bool fore = true;   // x <= p
 
+  /// The camber line's second derivative by x, constant on either side of its highest point.
   double rate() const {
     const double reach = fore ? place : 1 - place;
     return -2 * height / (reach * reach);
   }
   double slope(double x) const { return rate() * (x - place); }
+  /// y_c. `one_minus_x` apart, because near the trailing edge 1 - x as a difference would lose digits.
   double value(double x, double one_minus_x) const {
     const double part = fore ? x / place : one_minus_x / (1 - place);
     return height * part * (2 - part);
@@ -58,14 +61,15 @@ struct Camber {
 /// so that v grows along the outline and the nose is regular:
 ///   (x, camber(x)) + side * half thickness * (unit normal of the camber line), with x = v^2.
 struct NacaPiece {
-  double chord;
-  double thickness;
+  double chord;      // length of the chord: everything is drawn with 1 and multiplied
+  double thickness;  // the largest, as a share of the chord
   Camber camber;
   bool upper;
   Interval range;  // of v
 
   Interval domain() const { return range; }
 
+  /// d(x, y)/dv: the derivative by w, times dw/dv, which is -1 above and 1 below.
   Vec2 velocity(double v) const {
     const Offset offset = offset_at(v);
     const Vec2 first = 2 * offset.w * Vec2(1, offset.slope) + offset.half.first * offset.normal -
@@ -106,16 +110,18 @@ struct NacaPiece {
   }
 
  private:
+  /// What position and derivatives have in common at one v.
   struct Offset {
-    double w;
-    Scalar half;  // signed half thickness
-    double slope;
-    double share;
-    double turn1;
+    double w;      // |v|
+    Scalar half;   // signed half thickness
+    double slope;  // of the camber line, dy/dx
+    double share;  // 1 / (1 + slope^2)
+    double turn1;  // of the camber line's tangent, d(angle)/dw
     Vec2 tangent;
     Vec2 normal;
   };
 
+  /// The half thickness is negative below, so that both sides add it along the same normal.
   Offset offset_at(double v) const {
     Offset o;
     o.w = std::abs(v);
@@ -133,12 +139,14 @@ struct NacaPiece {
   }
 };
 
+/// Exactly four of 0 to 9.
 bool is_digits(const std::string& text) {
   return text.size() == 4 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 }  // namespace
 
+/// From the trailing edge over the top and back; without camber two pieces, which meet at the nose, else four.
 Curves naca(const Parameters& parameters) {
   const std::string& digits = parameters.text("digits");
   if (!is_digits(digits)) parameters.refuse("digits must be the four digits of a section such as 0012 or 2412");

@@ -6,6 +6,7 @@
 #include "outline/shapes/shapes.hpp"
 #include "outline/turn.hpp"
 
+// Shapes in polar form, and the two open ones.
 // Notation:
 //   u, r(u)         polar angle, and the radius there with its derivatives: RadiusJet; x = r cos u, y = r sin u
 //   a, b            as docs/gallery.md has them for each shape
@@ -16,8 +17,8 @@ namespace {
 
 /// A radius and its derivatives by the angle.
 struct RadiusJet {
-  double value;
-  double first;
+  double value;  // length
+  double first;  // by u, and so on
   double second;
   double third;
 };
@@ -29,12 +30,14 @@ struct Polar {
 
   Interval domain() const { return {0, kFullTurn}; }
 
+  /// (r e^iu)' = (r' + i r) e^iu.
   Vec2 velocity(double u) const {
     const Turn turn = turn_by(u);
     const RadiusJet r = radius(turn);
     return in_frame(turn, r.first, r.value);
   }
 
+  /// By the product rule: '' is (r'' - r) + 2 i r', ''' is (r''' - 3 r') + i (3 r'' - r), each times e^iu.
   Jet jet(double u) const {
     const Turn turn = turn_by(u);
     const RadiusJet r = radius(turn);
@@ -44,6 +47,7 @@ struct Polar {
   }
 
  private:
+  /// (outward + i around) e^iu: parts along the radius and perpendicular to it.
   static Vec2 in_frame(const Turn& turn, double outward, double around) {
     return {outward * turn.cosine - around * turn.sine, outward * turn.sine + around * turn.cosine};
   }
@@ -56,6 +60,8 @@ struct LimaconRadius {
 
   RadiusJet operator()(const Turn& turn) const {
     // Where b cos u is close to -|b|, the sum is taken as (a - |b|) + |b| (1 - cos^2)/(1 - ...) without cancellation.
+    // r = (a - |b|) + |b| (1 + c) with c = cos u or -cos u, so that 1 + c is never negative; near c = -1 it is sin^2 u
+    // / (1 - c).
     const double cosine = b < 0 ? -turn.cosine : turn.cosine;
     const double above_least = cosine < 0 ? turn.sine * turn.sine / (1 - cosine) : 1 + cosine;
     const double size = std::abs(b);
@@ -69,6 +75,7 @@ struct CamRadius {
   double lift;
 
   RadiusJet operator()(const Turn& turn) const {
+    // The derivatives of q; those of q^2 follow by the product rule.
     const double q = 0.5 * (1 + turn.cosine);
     const double q1 = -0.5 * turn.sine;
     const double q2 = -0.5 * turn.cosine;
@@ -81,7 +88,7 @@ struct CamRadius {
 struct GearRadius {
   double r0;
   double depth;
-  double teeth;
+  double teeth;  // a whole number: the curve closes
 
   RadiusJet operator()(const Turn& turn) const {
     // teeth * u is rounded; what rounding took is put back to first order.
@@ -97,6 +104,7 @@ struct GearRadius {
 
 }  // namespace
 
+/// Closer to |b| = a than kMostContrast allows, the turn near r = 0 would be as good as a cusp.
 Curves limacon(const Parameters& parameters) {
   const double a = parameters.number("a");
   const double b = parameters.number("b");
@@ -104,10 +112,12 @@ Curves limacon(const Parameters& parameters) {
   return {Polar<LimaconRadius>{{a, b}}};
 }
 
+/// Any lift of at least 0 leaves the radius above 0.
 Curves cam(const Parameters& parameters) {
   return {Polar<CamRadius>{{parameters.number("base"), parameters.number("lift")}}};
 }
 
+/// The radius must stay above 0, by more than what kMostContrast allows.
 Curves gear(const Parameters& parameters) {
   const double r = parameters.number("r");
   const double depth = parameters.number("depth");
@@ -120,6 +130,7 @@ namespace {
 /// r = a e^(b u). As a complex number the point is a e^((b + i) u), so each derivative multiplies by (b + i).
 class LogSpiral {
  public:
+  /// `angle`: how far it turns, radians.
   LogSpiral(double a, double b, double angle) : a_(a), b_(b), angle_(angle) {}
 
   Interval domain() const { return {0, angle_}; }
@@ -133,25 +144,27 @@ class LogSpiral {
  private:
   using Factor = std::complex<double>;
 
+  /// a e^((b + i) u); what rounding took from b u is put back to first order.
   Vec2 point(double u) const {
     const ExactProduct exponent = exact_product(b_, u);
     const double growth = std::exp(exponent.value);
     const double radius = a_ * (growth + growth * exponent.rest);
     return {radius * std::cos(u), radius * std::sin(u)};
   }
+  /// The product of complex numbers.
   static Vec2 times(const Vec2& v, const Factor& f) {
     return {v.x() * f.real() - v.y() * f.imag(), v.x() * f.imag() + v.y() * f.real()};
   }
 
-  double a_;
-  double b_;
-  double angle_;
+  double a_;      // radius at u = 0
+  double b_;      // growth per radian, not 0
+  double angle_;  // the domain's end
 };
 
 /// x = scale u, y = scale e^u.
 struct Exponential {
   double scale;
-  Interval range;
+  Interval range;  // of u
 
   Interval domain() const { return range; }
   Vec2 velocity(double u) const { return {scale, scale * std::exp(u)}; }
@@ -163,11 +176,13 @@ struct Exponential {
 
 }  // namespace
 
+/// With another b than 0 the curvature is monotone: one spiral from end to end.
 Curves log_spiral(const Parameters& parameters) {
   const double a = parameters.number("a");
   const double b = parameters.number("b");
   const double angle = kFullTurn * parameters.number("turns");
   if (b == 0) parameters.refuse("b must not be 0; with b = 0 it is a circle, run through again and again");
+  // From one end's radius to the other's.
   const double growth = std::exp(std::abs(b) * angle);
   if (growth > kMostContrast || a * growth > kMostLength || a / growth < kLeastLength) {
     parameters.refuse(fmt::format("the radius changes by a factor of {:.3g}, expected {} at most; take fewer turns",

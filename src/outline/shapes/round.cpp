@@ -13,6 +13,7 @@
 #include "rollfix/curve.hpp"
 #include "rollfix/outline.hpp"
 
+// Ellipses, and shapes drawn of lines and arcs or through random points.
 // Notation:
 //   a, b            half axes; r a radius; n the superellipse's exponent, or a number of corners
 //   u               direction in which a superellipse is drawn: c = cos u, s = sin u, g = c^n + s^n
@@ -23,7 +24,8 @@ namespace {
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kHalfTurn = std::numbers::pi;
 
-/// Corner number i of n on the circle of radius r; number 0 on the x axis.
+/// Corner number i of n on the circle of radius r; number 0 on the x axis. By half turns, so that corners on an axis
+/// are on it exactly.
 Vec2 corner(double r, int i, int n) {
   const double half_turns = 2.0 * i / n;
   return r * Vec2(boost::math::cos_pi(half_turns), boost::math::sin_pi(half_turns));
@@ -43,6 +45,8 @@ Curves belt(const std::vector<Curve>& arcs) {
 
 }  // namespace
 
+/// Three arcs of radius `width`, each about the corner opposite to it. Corners are at the distance width / sqrt(3) from
+/// the middle.
 Curves reuleaux(const Parameters& parameters) {
   const double width = parameters.number("width");
   const double r = width / std::numbers::sqrt3;
@@ -55,12 +59,14 @@ Curves reuleaux(const Parameters& parameters) {
   return curves;
 }
 
+/// Counter-clockwise from the lower line on: belt() puts a line in front of each half circle.
 Curves stadium(const Parameters& parameters) {
   const double half = parameters.number("length") / 2;
   const double r = parameters.number("r");
   return belt({Arc({half, 0}, r, -kQuarterTurn, kHalfTurn), Arc({-half, 0}, r, kQuarterTurn, kHalfTurn)});
 }
 
+/// Four quarter circles, the lower right one first, with lines in between.
 Curves rounded_rectangle(const Parameters& parameters) {
   const double r = parameters.number("r");
   const double x = parameters.number("width") / 2 - r;  // centre of the upper right corner
@@ -70,6 +76,7 @@ Curves rounded_rectangle(const Parameters& parameters) {
                Arc({-x, y}, r, kQuarterTurn, kQuarterTurn), Arc({-x, -y}, r, kHalfTurn, kQuarterTurn)});
 }
 
+/// Neighbouring sides share a corner computed by the same formula, so they meet to the bit.
 Curves polygon(const Parameters& parameters) {
   const double r = parameters.number("r");
   const int n = parameters.whole("n");
@@ -86,6 +93,7 @@ double uniform(std::mt19937_64& generator) { return 2 * (static_cast<double>(gen
 
 }  // namespace
 
+/// Random radii at equal angles, drawn in order from one generator: the seed alone decides, on every machine.
 Curves spline(const Parameters& parameters) {
   const int n = parameters.whole("n");
   const double wobble = parameters.number("wobble");
@@ -96,12 +104,14 @@ Curves spline(const Parameters& parameters) {
     const double radius = 1 + wobble * uniform(generator);
     points.push_back(radius * Vec2(boost::math::cos_pi(half_turns), boost::math::sin_pi(half_turns)));
   }
+  // Chords turn by less than pi, so none is a corner and the spline is periodic.
   const double no_corners = std::numbers::pi;
   return spline_through(points, true, no_corners);
 }
 
 namespace {
 
+/// Throws InputError where the half axes differ by more than kMostContrast.
 void refuse_needle(const Parameters& parameters, double a, double b) {
   if (std::max(a, b) > kMostContrast * std::min(a, b)) {
     parameters.refuse(fmt::format("too slim, a and b may differ by a factor of {} at most", kMostContrast));
@@ -111,6 +121,7 @@ void refuse_needle(const Parameters& parameters, double a, double b) {
 /// The base raised to a whole power >= 0.
 double whole_power(double base, int exponent) {
   double result = 1;
+  // By repeated squaring: result times base^exponent stays the same from turn to turn.
   for (; exponent > 0; exponent /= 2) {
     if (exponent % 2 == 1) result *= base;
     base *= base;
@@ -125,21 +136,26 @@ double whole_power(double base, int exponent) {
 /// Valid where c, s >= 0, and everywhere when n is even.
 class SuperellipseArc {
  public:
+  /// Half axes a and b above 0; n at least 3.
   SuperellipseArc(double a, double b, double n) : scale_(a, b), n_(n) {
     if (n == std::floor(n)) whole_n_ = static_cast<int>(n);
   }
 
+  /// d(x, y)/du at the direction (c, s) = (cos u, sin u).
   Vec2 velocity(double c, double s) const {
+    // c^(n-1) and s^(n-1).
     const double c1 = power(c, -1);
     const double s1 = power(s, -1);
     const double g = c1 * c + s1 * s;
     return radius(g) / g * scale_.cwiseProduct(Vec2(-s1, c1));
   }
 
+  /// The same with all derivatives; powers down to n - 3 are needed, hence n of at least 3.
   Jet jet(double c, double s) const {
     const double c3 = power(c, -3);  // c^(n-3)
     const double s3 = power(s, -3);
     const double g = c3 * c * c * c + s3 * s * s * s;
+    // p3 = c^(n-3)/g and q3 = s^(n-3)/g, then times c or s, up to p = c^(n-1)/g and q.
     const double p3 = c3 / g;
     const double q3 = s3 / g;
     const double p2 = p3 * c;
@@ -159,12 +175,14 @@ class SuperellipseArc {
   }
 
  private:
+  /// g^(-1/n): how far the point in direction u is from the middle, half axes taken as 1.
   double radius(double g) const { return std::pow(g, -1 / n_); }
+  /// base^(n + offset); a whole power also of a base below 0, and faster.
   double power(double base, int offset) const {
     return whole_n_ > 0 ? whole_power(base, whole_n_ + offset) : std::pow(base, n_ + offset);
   }
 
-  Vec2 scale_;
+  Vec2 scale_;  // half axes
   double n_;
   int whole_n_ = 0;  // 0 where n is not whole
 };
@@ -187,11 +205,12 @@ struct WholeSuperellipse {
 /// Any n: a quarter between two axes, where |.|^n is not analytic.
 struct SuperellipseQuarter {
   SuperellipseArc arc;  // drawn in the first quadrant, then turned
-  int quarter_turns;
+  int quarter_turns;    // counter-clockwise, 0 to 3
 
   static constexpr double kQuarter = std::numbers::pi / 2;
 
   Interval domain() const { return {0, kQuarter}; }
+  /// The vector turned by them, exactly.
   Vec2 turned(const Vec2& v) const {
     switch (quarter_turns) {
       case 0:
@@ -220,6 +239,7 @@ struct SuperellipseQuarter {
   }
 };
 
+/// One curve all around; also the superellipse with n = 2.
 Curves whole_ellipse(double a, double b) { return {EllipticArc(Vec2::Zero(), {a, 0}, {0, b}, 0, kFullTurn)}; }
 
 }  // namespace
@@ -233,6 +253,7 @@ Curves ellipse(const Parameters& parameters) {
   return whole_ellipse(a, b);
 }
 
+/// In this order: an ellipse, refused, one analytic curve, or four quarters.
 Curves superellipse(const Parameters& parameters) {
   const double a = parameters.number("a");
   const double b = parameters.number("b");
@@ -243,6 +264,7 @@ Curves superellipse(const Parameters& parameters) {
   if (std::fmod(n, 2) == 0) return {WholeSuperellipse{{a, b, n}}};
   Curves curves;
   for (int quarter = 0; quarter < 4; ++quarter) {
+    // A quarter turned by an odd number of right angles has its half axes exchanged.
     const bool swapped = quarter % 2 == 1;
     curves.push_back(SuperellipseQuarter{{swapped ? b : a, swapped ? a : b, n}, quarter});
   }

@@ -23,6 +23,7 @@ class Parameters {
   /// Throws InputError on a name that the shape does not have, one given twice, or a value that is not allowed.
   Parameters(const GalleryShape& shape, const ParameterList& given);
 
+  /// The value of one of the shape's parameters, given or default, as a number or as it is written.
   double number(const std::string& name) const;
   int whole(const std::string& name) const { return static_cast<int>(number(name)); }
   const std::string& text(const std::string& name) const;
@@ -31,7 +32,7 @@ class Parameters {
   [[noreturn]] void refuse(const std::string& reason) const;
 
  private:
-  const GalleryShape& shape_;
+  const GalleryShape& shape_;        // a row of the gallery's table
   std::vector<std::string> values_;  // in the order of shape_.parameters
 };
 
