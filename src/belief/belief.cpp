@@ -33,6 +33,7 @@ constexpr double kWide = 0.1;
 // share of that.
 constexpr double kAnywhere = 0.9;
 
+/// Throws InputError: noise, a prior or a facing with which nothing can be computed.
 void require_valid(const Part& part, const BeliefOptions& options, const FingerGeometry& contacts) {
   belief::require_weighable(options.noise);
   if (options.prior &&
@@ -69,11 +70,15 @@ void belief::require_weighable(const Noise& noise) {
   }
 }
 
+/// Belief's own: one posterior with what is known beforehand and, to test that, one by the rows alone.
 struct Belief::State {
+  /// Takes the samples since the last time; nothing to do where there are none.
   void settle();
+  /// How well the rows fit, without modes where the posterior can tell that alone.
   const Fit& fit();
-  /// What is said beforehand can only sharpen what the rows allow.
+  /// Tests the prior: it can only sharpen what the rows allow. Sets Fit::prior_sigmas.
   void hold_against_rows_alone();
+  /// `places`: modes or placements, the most probable first.
   template <class Place>
   Verdict verdict_on(const std::vector<Place>& places);
 
@@ -93,7 +98,7 @@ void Belief::State::settle() {
   hold_against_rows_alone();
 }
 
-// Where that is all that is asked.
+// Of two fingers the fit is known long before the modes are. With a prior it needs both posteriors: settle().
 const Fit& Belief::State::fit() {
   const bool is_settled = posterior->samples() == settled_at;
   if (!is_settled && !of_rows_alone) {
@@ -110,17 +115,20 @@ void Belief::State::hold_against_rows_alone() {
   if (!of_rows_alone || !posterior->has_begun()) return;
   const Outcome alone = of_rows_alone->settle();
   const double more = 2 * (alone.evidence.peak - outcome.evidence.peak);
+  // Nothing fits at all, with or without the prior.
   if (!std::isfinite(more)) return;
   // What is noisier than said, or alike, says less.
   const double of_prior = square(outcome.fit.prior_sigmas);
   const double cost = of_prior + std::max(0.0, more - of_prior) / square(alone.fit.widened);
+  // A prior of s and a heading have one degree each, a whole pose has three.
   const double degrees = (options.prior ? 1 : 0) + (options.pose ? std::isfinite(options.pose->place_sd) ? 3 : 1 : 0);
   outcome.fit.prior_sigmas = degrees > 1 ? normal_deviate(cost, degrees) : std::sqrt(cost);
 }
 
 namespace {
 
-/// As if the rows fitted.
+/// The verdict of rows that fit: docs/belief.md has the table. A closed boundary of which 95 % need nearly all is
+/// `unobservable`; one place that is wide is `ambiguous`, one stretch.
 Verdict verdict_of_places(const Remaining& remaining, const Boundary& places) {
   const double length = remaining.credible_length;
   if (places.closed && length > kAnywhere * kSureProbability * places.perimeter) return {Verdict::unobservable};
@@ -133,6 +141,7 @@ Verdict verdict_of_places(const Remaining& remaining, const Boundary& places) {
 Verdict belief::verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places) {
   // The best that was seen need not be near the best there is.
   if (remaining.unresolved > 1 - kSureProbability) return {Verdict::undecided};
+  // Nothing is listed, or all that is listed is off by more than kMostExcess times the noise.
   if (remaining.places == 0 || fit.excess > kMostExcess) return {Verdict::inconsistent};
   Verdict verdict = verdict_of_places(remaining, places);
   verdict.fits_badly = fit.is_bad();
@@ -142,10 +151,12 @@ Verdict belief::verdict_of(const Fit& fit, const Remaining& remaining, const Bou
 template <class Place>
 Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
   settle();
+  // No row yet: every place is as good as any other.
   if (!posterior->has_begun()) return {Verdict::unobservable};
   Remaining remaining;
   remaining.places = how_many_remain(places, &Place::probability);
   if (!places.empty()) {
+    // Only places that count: improbable ones do not widen the answer.
     const double least = least_that_counts(places, &Place::probability);
     std::vector<PerFinger<Interval>> that_count;
     for (const Place& each : places) {
@@ -159,6 +170,7 @@ Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts) {
   require_valid(part, options, contacts);
+  // A taught part adds its own accuracy to the noise.
   BeliefOptions on_part = options;
   on_part.noise = noise_on(part, options.noise);
   const auto posterior = [&](const BeliefOptions& with) {
@@ -167,6 +179,7 @@ Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, con
   };
   state_ = std::make_unique<State>(
       State{part, on_part, contacts, posterior(on_part), nullptr, std::numeric_limits<std::size_t>::max(), Outcome{}});
+  // Without a prior there is nothing to test; a glance leaves it untested.
   if ((!options.prior && !options.pose) || options.glance) return;
   on_part.prior.reset();
   on_part.pose.reset();
@@ -203,6 +216,7 @@ const std::vector<Mode>& Belief::modes() {
 double Belief::rest() {
   state_->settle();
   double listed = 0;
+  // What is not listed, and what was not looked at closely.
   for (const Mode& mode : state_->outcome.modes) listed += mode.probability;
   return std::min(1.0, std::max(0.0, 1 - listed) + state_->outcome.unresolved);
 }
@@ -225,8 +239,10 @@ bool Belief::is_hopeless(const Rival& rival) { return state_->posterior->is_hope
 
 double Belief::tolerance(const std::vector<Reading>& readings) {
   state_->settle();
+  // Nothing is known: any turn is possible.
   if (!state_->posterior->has_begun()) return std::numbers::pi;
   const double variance = state_->posterior->variance_of_miss(readings, state_->outcome.modes);
+  // With noise as it seems to be, up to where nothing fits any more.
   return kFarthest * std::min(fit().widened, kMostExcess) * std::sqrt(variance);
 }
 

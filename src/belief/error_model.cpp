@@ -33,7 +33,9 @@ constexpr double kMostGivenOut = 1.1;
 }  // namespace
 
 double Travel::since_last(const Mark& mark) const {
+  // From the last mark backwards to the last one that is apart for certain.
   const double rows = mark.row - marks_.back().row;
+  // The mark that was looked at before `other`: not apart, so that the place where it just was lies between both.
   Mark nearer = mark;
   for (std::size_t k = marks_.size(); k-- > 0;) {
     const Mark& other = marks_[k];
@@ -47,14 +49,18 @@ double Travel::since_last(const Mark& mark) const {
       const double share = std::clamp((certain - near_apart) / (apart - near_apart), 0.0, 1.0);
       const double row = nearer.row + share * (other.row - nearer.row);
       const double so_far = so_far_[k + 1] + share * (so_far_[k] - so_far_[k + 1]);
+      // What of that way was given out since there is taken off; the rows since the last mark have an even share at
+      // most.
       const double left = kMostGivenOut * certain - (so_far_.back() - so_far);
       return std::clamp(left, 0.0, certain * rows / (mark.row - row));
     }
     nearer = other;
   }
+  // No mark is apart for certain: what the roll has gone in all, spread evenly over its rows.
   return std::abs(mark.length - marks_.front().length) * rows / (mark.row - marks_.front().row);
 }
 
+/// In the order of the roll: marks only grow in their rows.
 double Travel::add(const Mark& mark) {
   const double travelled = since_last(mark);
   so_far_.push_back(so_far_.back() + travelled);
@@ -98,6 +104,7 @@ constexpr double kLeastWorth = 1e-6;
 
 }  // namespace
 
+/// Sensors without error count as off by the least that rounding allows: variances stay above 0.
 SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter)
     : kind(log_kind),
       bare(options.bare),
@@ -109,6 +116,7 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
       perimeter(the_perimeter),
       slip_here_and_there(std::min(kSlipHereAndThere * options.noise.slip, kMostSlipHereAndThere)) {}
 
+/// Slip, radius by 1/r, an open scale and the part's own size are independent: their variances add up. No unit.
 double SensorErrors::scale_variance(double finger_curvature, bool is_open) const {
   const double open = is_open ? square(scale_sd) : 0;
   return square(noise.slip) + square(noise.radius * finger_curvature) + open + square(noise.part.length);
@@ -116,6 +124,7 @@ double SensorErrors::scale_variance(double finger_curvature, bool is_open) const
 
 double SensorErrors::for_large_slip() const { return 1 + kTooNarrow * square(slip_here_and_there); }
 
+/// Largest where a node is as long as a patch: a shorter one bends less, in a longer one several bends average out.
 RowCovariance SensorErrors::bent(double travelled) const {
   if (gathers_rows() || !(travelled > 0)) return {};
   const double patches = travelled / patch();
@@ -125,38 +134,44 @@ RowCovariance SensorErrors::bent(double travelled) const {
 
 double SensorErrors::patch() const { return kSlipPatch * perimeter; }
 
-// What slips at one place has nothing to do with what slips a hundredth of the boundary further on.
+/// What slips at one place is independent of what slips a patch further on: |length| / patch patches, each with the
+/// variance (slip patch)^2. Length^2.
 double SensorErrors::slipped(double length) const { return square(slip_here_and_there) * std::abs(length) * patch(); }
 
-// The integral of a correlation that falls off over a length is twice that length.
+/// The integral of a correlation exp(-|x| / length) is twice that length: over it rows are worth one. At rest they are
+/// worth kLeastWorth of their number, and never more than there are.
 double SensorErrors::worth(double travelled, double rows) const {
   if (noise.correlation <= 0 || gathers_rows()) return rows;
   return std::clamp(0.5 * travelled / noise.correlation, kLeastWorth * rows, rows);
 }
 
-// A log's first contact is off as any other. A sum of increments starts from where it is, and wanders.
+/// A log's first contact is off like any other, but a sum of increments starts from it exactly, and each row adds its
+/// error.
 Travel SensorErrors::travel(std::pmr::memory_resource* memory) const {
   const bool is_exact = bare || gathers_rows();
   return {{-1, 0, is_exact ? 0 : contact_variance}, gathers_rows() ? contact_variance : 0, memory};
 }
 
-// A gyroscope drifts, and so may the part's outline.
+/// A gyroscope's drift and walk, and what a taught part's outline turns wrongly on the way. Radians^2.
 double SensorErrors::drifted(double length, const Interval& seconds) const {
   const double gyroscope = bare ? 0 : drift_variance(noise, kind, std::abs(length) / perimeter, seconds);
   return gyroscope + square(noise.part.walk) * std::abs(length);
 }
 
+/// Without the bias, which a filter estimates. With neither `drift` nor `walk` all of it wanders.
 double SensorErrors::wandered(double length, const Interval& seconds) const {
   if (bare || (noise.drift == 0 && noise.walk == 0)) return drifted(length, seconds);
   return square(noise.walk) * seconds.width() + square(noise.part.walk) * std::abs(length);
 }
 
+/// Rows are spread evenly over the boundary that was rolled over; as many as fall on `noise.part.alike` are off alike.
 double SensorErrors::rows_alike(double rows, double range) const {
   const double boundary = std::min(range, perimeter);  // what is rolled over again is off as it was
   const bool is_farther = noise.part.alike < boundary;
   return is_farther ? std::max(1.0, rows * noise.part.alike / boundary) : std::max(1.0, rows);
 }
 
+/// P0 of x = (offset of length, offset of turn, scale, a gyroscope's scale, its bias, the first centre's x and y).
 ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter)
     : sensor_(options, kind, perimeter) {
   if (kind == LogKind::contact) {
@@ -164,6 +179,8 @@ ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger
     start_(0, 0) = sensor_.contact_variance;
     start_(0, 1) = start_(1, 0) = -finger_curvature * sensor_.contact_variance;
     start_(1, 1) = square(finger_curvature) * sensor_.contact_variance + sensor_.angle_variance;
+    // Length and turn were zeroed at a first contact that was measured like any other. Of increments both offsets start
+    // at 0.
   } else if (sensor_.is_gyroscope()) {
     start_(0, 0) = sensor_.contact_variance;
     start_(1, 1) = sensor_.angle_variance;
@@ -175,11 +192,13 @@ ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger
   start_(5, 5) = start_(6, 6) = centre_variance();
 }
 
+/// 0 to 1; 0 where lengths are exact.
 double ErrorModel::radius_share(double finger_curvature) const {
   const double all = sensor_.scale_variance(finger_curvature);
   return all > 0 ? square(sensor_.noise.radius * finger_curvature) / all : 0;
 }
 
+/// R of (length, turn). With u and psi an error of the contact is in both, with opposite signs and by kappa.
 RowCovariance ErrorModel::row(double finger_curvature, double alike) const {
   const double contact = sensor_.row_share * sensor_.contact_variance;
   const double angle = sensor_.row_share * sensor_.angle_variance + alike * sensor_.part_variance();
@@ -187,6 +206,7 @@ RowCovariance ErrorModel::row(double finger_curvature, double alike) const {
   return {contact, -finger_curvature * contact, square(finger_curvature) * contact + angle};
 }
 
+/// What is added to the offsets' variances from node to node.
 Gathered ErrorModel::gathered(double travelled, double rows, const Interval& seconds) const {
   Gathered sum;
   sum.length = sensor_.slipped(travelled);
@@ -213,14 +233,18 @@ PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::ar
     start_(2 + i, 2 + i) =
         sensor_.scale_variance(finger_curvature[finger], options.scale_of.value_or(finger) == finger);
   }
+  // A scale that is open for both fingers is one and the same: it is their covariance.
   if (!options.scale_of) start_(2, 3) = start_(3, 2) = square(sensor_.scale_sd);  // one factor for both
+  // Without the facing all turns are changes since the first row, whose own error they share.
   if (!absolute_) start_(4, 4) = (has_offsets ? turn_variance_ : 0) + part_variance();
 }
 
 double PairErrors::contact_sd() const { return std::sqrt(contact_variance_); }
 
+/// Slip here and there, increments, a walk: the offsets differ from row to row.
 bool PairErrors::drifts() const { return sensor_.slip_here_and_there > 0 || sensor_.gathers(); }
 
+/// The offsets of both lengths and of the turn gather; scales do not.
 PairShared PairErrors::gathered(double rows, const std::array<double, 2>& travelled) const {
   PairShared sum = PairShared::Zero();
   sum[0] = sensor_.slipped(travelled[0]);

@@ -92,14 +92,14 @@ struct SensorErrors {
   double patch() const;
   bool is_gyroscope() const { return kind == LogKind::travelled && !bare; }
 
-  LogKind kind;
-  bool bare;
+  LogKind kind;  // which sensors measured lengths and turns
+  bool bare;     // exact first contacts, no drift
   Noise noise;
-  double scale_sd;
-  double contact_variance;  // of a contact's place
-  double angle_variance;    // of a finger's orientation
-  double row_share;         // of both, what a row has on its own: of increments the part that is under way
-  double perimeter;
+  double scale_sd;             // see BeliefOptions
+  double contact_variance;     // of a contact's place
+  double angle_variance;       // of a finger's orientation
+  double row_share;            // of both, what a row has on its own: of increments the part that is under way
+  double perimeter;            // P, length
   double slip_here_and_there;  // over short stretches, per length
 };
 
@@ -158,8 +158,8 @@ class ErrorModel {
   Gathered gathered(double travelled, double rows, const Interval& seconds) const;
 
  private:
-  SensorErrors sensor_;
-  SharedCovariance start_ = SharedCovariance::Zero();
+  SensorErrors sensor_;                                // of this finger's log
+  SharedCovariance start_ = SharedCovariance::Zero();  // P0
 };
 
 /// Errors that two fingers' whole roll shares: of a's and b's lengths as measured, of the scales of both, and of the
@@ -204,12 +204,12 @@ class PairErrors {
   double perimeter() const { return sensor_.perimeter; }
 
  private:
-  SensorErrors sensor_;
-  bool absolute_;
-  double contact_variance_;
-  double turn_variance_;
-  std::array<double, 2> normal_turn_{};
-  PairSharedCovariance start_ = PairSharedCovariance::Zero();
+  SensorErrors sensor_;                                        // of either finger
+  bool absolute_;                                              // see absolute()
+  double contact_variance_;                                    // length^2
+  double turn_variance_;                                       // of both fingers' orientations, radians^2
+  std::array<double, 2> normal_turn_{};                        // see normal_turn()
+  PairSharedCovariance start_ = PairSharedCovariance::Zero();  // P0
 };
 
 }  // namespace rollfix::belief

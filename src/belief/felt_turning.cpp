@@ -15,7 +15,7 @@
 //   E Y, Var Y      `Felt::angle`, `Felt::variance`; d E Y / ds is `Felt::slope`
 //   corner_length   how far a finger's centre goes per radian that it pivots: a disk's r
 //   pivot           the part of Var Y that neighbouring rows of one pivot have in common: `Felt::pivot`
-// Follows docs/two_fingers.md, "The errors", from "Near a corner Theta is no straight line" on. Integrals by Gauss and
+// Follows docs/two_fingers.md, "The errors", from "Near a corner" on. Integrals by Gauss and
 // Legendre's rule of 15 points, kept as a table (`knots_`).
 // Idea: near a corner the straight line Theta + kappa n would be wrong; its mean and its variance over n are not.
 namespace rollfix::belief {
@@ -24,7 +24,7 @@ namespace {
 
 // A normal distribution further out than this many standard deviations holds 6e-7 of its mass.
 constexpr double kTail = 5;
-// A corner that a contact is seldomer at is not felt.
+// Below this probability of being at a corner the pivot counts in proportion only.
 constexpr double kSeldom = 0.01;
 // First knots per perimeter; between them the table is refined.
 constexpr std::size_t kFirstKnots = 64;
@@ -34,20 +34,22 @@ constexpr double kShareOfVariance = 0.05;
 
 using Rule = boost::math::quadrature::gauss<double, 15>;
 
-/// Sums over places around s, by how likely each is: of the offset n from s and of the angle's, y, from a reference.
+/// Sums over places around s, by how likely each is (`density` times length): of the offset n of a place from s, and of
+/// the angle y at it, from a reference.
 struct Moments {
-  double s;
-  double sd;
-  double reference;
-  double mass = 0;
-  double n = 0;
-  double nn = 0;
+  double s;          // where the contact was felt
+  double sd;         // of that
+  double reference;  // radians: y is small near it, so that squares keep their digits
+  double mass = 0;   // sum of weights
+  double n = 0;      // weighted sums of n, ...
+  double nn = 0;     // ... of its square, and so on
   double y = 0;
   double yn = 0;
   double yy = 0;
   double at_corners = 0;  // of the mass
   double jumps = 0;       // of all corners in reach
 
+  /// `place`: offset from s; `angle`: from the reference.
   void add(double weight, double place, double angle) {
     mass += weight;
     n += weight * place;
@@ -57,9 +59,10 @@ struct Moments {
     yy += weight * angle * angle;
   }
 
+  /// Of an offset, not normalized: `mass` divides it out.
   double density(double place) const { return std::exp(-0.5 * square(place / sd)); }
 
-  /// `angle`: of the tangent at a place in between.
+  /// A smooth stretch [lo, hi], by Gauss and Legendre. `angle`: of the tangent at a place in between.
   template <class Angle>
   void add_stretch(double lo, double hi, const Angle& angle) {
     const double middle = 0.5 * (lo + hi);
@@ -77,8 +80,9 @@ struct Moments {
   }
 };
 
-/// Of Y = Theta + n / r.
+/// Mean, slope and variance of Y = Theta + n / r: Var Y = Var Theta + 2 / r Cov(Theta, n) + Var n / r^2.
 Felt felt_by(const Moments& moments, double normal_turn) {
+  // Means, variances and the covariance of n and Theta.
   const double mean_n = moments.n / moments.mass;
   const double spread_n = moments.nn / moments.mass - square(mean_n);
   const double mean_angle = moments.y / moments.mass;
@@ -100,6 +104,7 @@ Felt felt_by(const Moments& moments, double normal_turn) {
 
 }  // namespace
 
+/// Notes convex corners, jumps of Theta upwards between spirals, and makes the table.
 FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corner_length, double normal_turn,
                          double accuracy)
     : turning_(&turning), sd_(sd), corner_length_(corner_length), normal_turn_(normal_turn) {
@@ -108,6 +113,7 @@ FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corne
   hi_ = turning.closed() ? P : P + 2 * kTail * sd;
   const std::vector<Spiral>& spirals = turning.spirals();
   for (std::size_t k = 0; k < spirals.size(); ++k) {
+    // An open outline's start is no corner.
     if (k == 0 && !turning.closed()) continue;
     const double before = k > 0 ? spirals[k - 1].end.angle : spirals.back().end.angle - turning.period_turn();
     if (spirals[k].start.angle - before > kTurnAccuracy) corners_.push_back(spirals[k].lo);
@@ -119,6 +125,8 @@ FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corne
   buckets_ = Buckets(starts, hi_);
 }
 
+/// Moments over s - kTail sd to s + kTail sd: along every spiral in reach, and at every corner over all directions of
+/// the pivot, which counts as `corner_length_` per radian.
 Felt FeltTurning::integrated(double s) const {
   beat();
   const TurningFunction& turning = *turning_;
@@ -129,6 +137,7 @@ Felt FeltTurning::integrated(double s) const {
   const double reference = turning.angle(s);
   Moments moments{s, sd_, reference};
   if (!turning.closed()) {
+    // Beyond an open outline's ends the tangent goes on.
     moments.add_stretch(from, std::min(to, 0.0), [&](double) { return spirals.front().start.angle; });
     moments.add_stretch(std::max(from, P), to, [&](double) { return spirals.back().end.angle; });
   }
@@ -140,6 +149,7 @@ Felt FeltTurning::integrated(double s) const {
     double winding = first.winding;
     bool is_first = true;
     double before = 0;  // the tangent where the last spiral ended
+    // From spiral to spiral, on to further laps: `shift` and `lift` are the laps' s and Theta.
     while (true) {
       const Spiral& spiral = spirals[k];
       const double shift = winding * P;
@@ -154,6 +164,7 @@ Felt FeltTurning::integrated(double s) const {
         moments.add(weight, at - s, middle);
         moments.at_corners += weight;
         moments.jumps += jump;
+        // An even distribution over a range has the variance range^2 / 12 about its middle.
         moments.yy += weight * square(jump) / 12;
       }
       // Halves: over all of the tails one rule is not enough.
@@ -172,6 +183,9 @@ Felt FeltTurning::integrated(double s) const {
   return felt_by(moments, normal_turn_);
 }
 
+/// Knots from lo_ to hi_, so close that Hermite's cubic between two is within `accuracy` in its middle, and the
+/// variance within kShareOfVariance. The first are even ones, and some about both ends of every spiral, where the mean
+/// may bend.
 void FeltTurning::add_knots(double spacing, double accuracy) {
   std::vector<double> first;
   const auto count = static_cast<std::size_t>(std::ceil((hi_ - lo_) / spacing));
@@ -195,15 +209,18 @@ void FeltTurning::add_knots(double spacing, double accuracy) {
     int depth;
   };
   for (const double s : first) {
+    // Nearer together than `least` no knots are needed.
     if (s - knots_.back().s < least && s != first.back()) continue;
     if (s <= knots_.back().s) continue;
     std::vector<Task> tasks{{knot_at(s), 0}};
+    // What is left up to s, the nearest on top: the top begins at the last knot. Halves until it is good.
     while (!tasks.empty()) {
       const Knot lo = knots_.back();
       const Task task = tasks.back();
       const Knot& hi = task.hi;
       const double h = hi.s - lo.s;
       const Knot middle = knot_at(lo.s + 0.5 * h);
+      // Hermite's cubic in the middle.
       const double guess = 0.5 * (lo.felt.angle + hi.felt.angle) + 0.125 * h * (lo.felt.slope - hi.felt.slope);
       const double variance = 0.5 * (lo.felt.variance + hi.felt.variance);
       const bool is_good = std::abs(guess - middle.felt.angle) <= accuracy &&
@@ -221,6 +238,7 @@ void FeltTurning::add_knots(double spacing, double accuracy) {
   }
 }
 
+/// From the table: the mean by Hermite's cubic, variances on straight lines between knots.
 Felt FeltTurning::at(double s) const {
   double base = s;
   double lift = 0;
@@ -228,6 +246,7 @@ Felt FeltTurning::at(double s) const {
     const Wrapped wrapped = wrap(s, turning_->perimeter());
     base = wrapped.base;
     lift = wrapped.winding * turning_->period_turn();
+    // An open outline's table ends 2 kTail sd beyond it.
   } else if (s <= lo_ || s >= hi_) {
     return {s <= lo_ ? knots_.front().felt.angle : knots_.back().felt.angle, 0, 0};
   }
@@ -243,6 +262,7 @@ Felt FeltTurning::at(double s) const {
           lo.felt.pivot + (hi.felt.pivot - lo.felt.pivot) * x / h};
 }
 
+/// The nearest corner, if it is within kTail sd. REQUIRES has_corners().
 std::optional<double> FeltTurning::corner_at(double s) const {
   const double P = turning_->perimeter();
   const Wrapped wrapped = turning_->closed() ? wrap(s, P) : Wrapped{s, 0};

@@ -39,6 +39,7 @@ constexpr double kOneSide = 10;
 /// Second differences; at both ends that of the neighbour.
 std::vector<double> bends(const Course& course) {
   const std::vector<double>& m = course.values;
+  // Lots of unequal size: middles of neighbours are half of both apart, and so on for the differences.
   const auto rows = [&](std::size_t k) { return course.rows.empty() ? 1 : course.rows[k]; };
   const auto slope = [&](std::size_t k) { return (m[k + 1] - m[k]) / (0.5 * (rows(k) + rows(k + 1))); };
   std::vector<double> result(m.size());
@@ -53,6 +54,7 @@ std::vector<double> bends(const Course& course) {
 
 }  // namespace
 
+/// Of independent errors a second difference has the variance (1 + 4 + 1) sd^2.
 bool is_even(const Course& rows) {
   double sum = 0;
   for (const double bend : bends(rows)) sum += bend * bend;
@@ -60,9 +62,11 @@ bool is_even(const Course& rows) {
   return sum <= kSmooth * of_noise * static_cast<double>(rows.values.size());
 }
 
+/// m - D2 m / 24, unless a second difference stands out: a kink of the motion, which a cubic does not follow.
 std::optional<std::vector<double>> at_middles(const Course& means) {
   const std::vector<double> bent = bends(means);
   for (std::size_t k = 1; k + 1 < bent.size(); ++k) {
+    // Those two lots away share fewer values with this one. The outermost are copies of their neighbours.
     const bool has_before = k > 2;
     const bool has_after = k + 3 < bent.size();
     const double before = bent[has_before ? k - 2 : k + 2];
@@ -91,6 +95,7 @@ AnyNodes evenly(const AnyNodes& nodes, std::size_t most, const Gather& gather) {
   AnyNodes some(nodes.get_allocator());
   std::size_t next = 0;
   for (std::size_t k = 0; k < most; ++k) {
+    // Evenly by index, from the first to the last. What the nodes between two have gathered is not lost.
     const std::size_t at = k * (nodes.size() - 1) / (most - 1);
     typename AnyNodes::value_type node = nodes[at];
     for (; next < at; ++next) gather(node, nodes[next]);
@@ -102,12 +107,14 @@ AnyNodes evenly(const AnyNodes& nodes, std::size_t most, const Gather& gather) {
 
 }  // namespace
 
+/// Blocks fill up, nodes are made of them. Where there are too many, all nodes are made again of longer groups.
 void Nodes::add(const Row& row) {
   beat();
   ++rows_;
   if (!blocks_.add(row)) return;
   if (blocks_.is_full()) {
     blocks_.halve();
+    // A block has twice as many rows now: half as many blocks make a node, one at least.
     group_ = (group_ + 1) / 2;
     make_again();
   } else if (blocks_.complete().size() % group_ == 0) {
@@ -119,12 +126,14 @@ void Nodes::add(const Row& row) {
   }
 }
 
+/// Both: more nodes than `many` for the length travelled, and what gathers is seen in more than half of `many` modes.
 bool Nodes::are_too_many() const {
   if (!by_walk_) return false;
   const double many = std::max(kFewestNodes, finer_ * travel_.so_far() / (kPatches * errors_.patch()));
   return static_cast<double>(nodes_.size()) > many && walk_.modes() > 0.5 * many;
 }
 
+/// Fewer than `group_` at the end of the roll.
 JoinedRows Nodes::group(std::size_t begin) const {
   const std::pmr::vector<JoinedRows>& blocks = blocks_.complete();
   JoinedRows rows = blocks[begin];
@@ -133,7 +142,8 @@ JoinedRows Nodes::group(std::size_t begin) const {
   return rows;
 }
 
-// Means of more rows are less noisy: how far the finger travelled is known better.
+/// All nodes anew, of `group_` blocks each. The travel is measured anew as well: means of more rows are less noisy, so
+/// that it is known better.
 void Nodes::make_again() {
   ++generation_;
   nodes_.clear();
@@ -150,6 +160,8 @@ void Nodes::complete_node(const JoinedRows& rows) {
   seconds_ = rows.seconds;
 }
 
+/// Blocks of the group that is filling, with the rows of the block that is; nothing where there are no rows. It does
+/// not become a mark of the travel: it will change.
 std::optional<Node> Nodes::pending() const {
   const std::size_t begin = nodes_.size() * group_;
   const bool has_blocks = begin < blocks_.complete().size();
@@ -159,12 +171,14 @@ std::optional<Node> Nodes::pending() const {
   return node_of(rows, travel_.since_last(mark(rows)));
 }
 
+/// At the middle of its rows; of increments at the last one, which stands for them.
 Travel::Mark Nodes::mark(const JoinedRows& rows) const {
   const double before = static_cast<double>(nodes_.size()) * rows_of_node();
   const double middle = errors_.gathers_rows() ? rows.rows - 1 : 0.5 * (rows.rows - 1);
   return {before + middle, rows.length, rows.own.length};
 }
 
+/// Rows that are off alike: their mean has the variance of `worth` rows, not of all.
 Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
   const double worth = errors_.worth(travelled, rows.rows);
   return {rows.length,
@@ -183,6 +197,7 @@ double Nodes::spread_of(const JoinedRows& rows) const {
   if (rows.rows < 2 || errors_.gathers_rows()) return 0;
   // What rows scatter by on their own moves no contact.
   const RowCovariance& own = rows.own;
+  // `own` is of the mean, R / n: among n rows their own errors scatter by (n - 1) / n R, with this standard deviation.
   const double noise = (rows.rows - 1) * (tilt_ * tilt_ * own.length + 2 * tilt_ * own.both + own.turn);
   const double of_noise = noise * std::sqrt(2 / rows.rows);
   // Of a steady roll: so many rows of the way from the node before, or from the first contact.
@@ -192,9 +207,11 @@ double Nodes::spread_of(const JoinedRows& rows) const {
   const double way = (rows.tilted(tilt_) - before) * rows.rows / since;
   const double steady = way * way / 12;
   const double seen = rows.scatter - noise;
+  // What chance explains is a steady roll; else what was seen, less the noise.
   return std::abs(seen - steady) <= kFarthest * of_noise ? steady : std::max(0.0, seen);
 }
 
+/// A node's part of what has gathered, and its information on one length and one turn.
 void Nodes::Walk::add(const Node& node) {
   length += node.gathered.length;
   turn += node.gathered.turn;
@@ -202,12 +219,14 @@ void Nodes::Walk::add(const Node& node) {
   turn_rows += 1 / node.own.turn;
 }
 
-// Of a Wiener process with variance G at its end the k-th sine has G / (k pi)^2, and of errors with variance R in each
-// of n rows every sine has R / n: both alike at this k.
+/// k = sqrt(G n / R) / pi, the larger one of length and turn. The k-th sine of a Wiener process with variance G at its
+/// end has the variance G / (k pi)^2. Errors with variance R in each of n rows give every sine R / n. Both are equal at
+/// this k.
 double Nodes::Walk::modes() const {
   return std::sqrt(std::max(length * length_rows, turn * turn_rows)) / std::numbers::pi;
 }
 
+/// A node that is worth less than one row counts as that share. Centres make three equations of one.
 double Nodes::freedom() const {
   double sum = 0;
   for (const Node& node : nodes_) sum += std::min(1.0, node.worth);
@@ -215,16 +234,19 @@ double Nodes::freedom() const {
   return sum * (errors_.centre_variance() > 0 ? 3 : 1);
 }
 
+/// Of all complete nodes and the rows after them. Radians.
 double Nodes::turn_gathered() const {
   const std::optional<Node> last = pending();
   return std::sqrt(walk_.turn + (last ? last->gathered.turn : 0));
 }
 
+/// At one instant: the direction from a to b in the world, less the mean of both normals, which turn with the part.
 PairCentres PairCentres::of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing) {
   const Vec2 way = felt[1].centre - felt[0].centre;
   return {way.norm(), std::atan2(way.y(), way.x()) - 0.5 * (facing[0] + facing[1]), {felt[0].arm, felt[1].arm}};
 }
 
+/// A node that stands for those passed over has gathered what they have.
 std::pmr::vector<Node> some_of(const std::pmr::vector<Node>& nodes, std::size_t most) {
   return evenly(nodes, most, [](Node& node, const Node& passed) {
     node.gathered.length += passed.gathered.length;

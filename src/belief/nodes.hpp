@@ -125,11 +125,11 @@ class Nodes {
 
   ErrorModel errors_;
   double tilt_;
-  bool by_walk_;
+  bool by_walk_;  // see the constructor
   double finer_;  // nodes are so many times shorter than slip asks for
   std::size_t generation_ = 0;
-  std::size_t rows_ = 0;
-  RowBlocks blocks_;
+  std::size_t rows_ = 0;   // of the roll so far
+  RowBlocks blocks_;       // all complete rows, as blocks
   std::size_t group_ = 1;  // blocks of a node
   std::pmr::vector<Node> nodes_;
   Travel travel_;       // of them

@@ -47,6 +47,8 @@ double component(const std::pmr::vector<double>& values, std::size_t k) {
 
 }  // namespace
 
+/// Neyman's test over all equations together; their slow components add up to one chi-square. `freedom`: see the
+/// header.
 Trend trend_of(const Innovations& innovations, double freedom) {
   const auto equations = static_cast<double>(
       std::count_if(innovations.begin(), innovations.end(), [](const auto& each) { return !each.empty(); }));
@@ -57,18 +59,20 @@ Trend trend_of(const Innovations& innovations, double freedom) {
   for (const std::pmr::vector<double>& each : innovations) {
     if (each.empty()) continue;
     const auto count = static_cast<double>(each.size());
+    // For `jitter`: half the mean squared difference of neighbours is the variance of independent ones.
     for (std::size_t i = 1; i < each.size(); ++i) differences += square(each[i] - each[i - 1]);
     neighbours += count - 1;
     // Equations share the freedom evenly.
     const double independent = std::min(count, freedom / equations);
     const double most = std::floor(std::min(kComponents, independent / kInnovationsEach));
+    // Too few innovations: this equation says nothing of a trend.
     if (most < kFewestComponents) continue;
     double of_slow = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(most); ++k) of_slow += square(component(each, k));
     double squares = 0;
     for (const double innovation : each) squares += square(innovation);
-    // Where all are larger than said, that is told already. Errors far smaller than said are not told apart: then the
-    // answer is not surer than they allow.
+    // Where all innovations are larger than stated, the chi-square says so: the trend is what the slow ones are beyond
+    // that. Innovations smaller than stated count as they are: the answer is then wider than necessary, not too sure.
     const double larger = std::max(1.0, (squares - of_slow) / (count - most));
     slow += of_slow / larger;
     components += most;
@@ -88,8 +92,8 @@ namespace {
 constexpr double kSlidStep = 1e-6;
 constexpr double kAngleStep = 1e-6;
 
-/// u + psi = heading + tangent + pi/2 at each finger's contact, and the contacts are at the same places in both frames:
-/// of two fingers the middle of what they say.
+/// The pose with which u + psi = heading + tangent + pi/2 at each finger's contact, and with which the contacts are at
+/// the same places in both frames: of two fingers the middle of what they say.
 /// `chord`: of two fingers, how much the direction from one contact to the other counts for the heading, the normals
 /// counting for the rest.
 Pose pose_with(const Part& part, const Piece& piece, const PerFinger<MeasuredContact>& felt, double chord) {
@@ -97,11 +101,13 @@ Pose pose_with(const Part& part, const Piece& piece, const PerFinger<MeasuredCon
     return felt[finger].facing - 0.5 * std::numbers::pi - piece.tangent[finger];
   };
   Pose pose{0, 0, heading_by(0)};
+  // Angles are averaged by their difference: half of it, the shorter way.
   if (felt.size() == 2) pose.heading += 0.5 * nearest_angle(heading_by(1) - heading_by(0));
   if (chord > 0) {
     const Vec2 on_part = part.point(piece.s[1]) - part.point(piece.s[0]);
     pose.heading += chord * nearest_angle(angle_between(on_part, felt[1].where - felt[0].where) - pose.heading);
   }
+  // X = q - R(phi) p(s), the mean over the fingers.
   const double share = 1 / static_cast<double>(felt.size());
   for (std::size_t finger = 0; finger < felt.size(); ++finger) {
     const Vec2 origin = felt[finger].where - pose.turned(part.point(piece.s[finger]));
@@ -118,6 +124,8 @@ MeasuredContact moved(const MeasuredContact& contact, double along, double angle
   const double turn = along * contact.finger_curvature + angle;
   off.facing += turn;
   const Vec2 tangent(-std::sin(contact.facing), std::cos(contact.facing));
+  // A finger that is turned by `angle` about its centre carries its contact along by r times that; of a jaw this is
+  // left out.
   const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
   off.where += (along + radius * angle) * tangent;
   return off;
@@ -133,6 +141,7 @@ PerFinger<MeasuredContact> told(const PerFinger<MeasuredContact>& felt, const Pi
   return contacts;
 }
 
+/// (x, y, heading) of a pose less a reference's, the heading the shorter way.
 Eigen::Vector3d off(const Pose& pose, const Pose& reference) {
   return {pose.x - reference.x, pose.y - reference.y, nearest_angle(pose.heading - reference.heading)};
 }
@@ -141,6 +150,7 @@ Eigen::Vector3d off(const Pose& pose, const Pose& reference) {
 /// the normal, the orientation's turns it about the contact.
 Eigen::Matrix3d sensors_of_one(const MeasuredContact& felt, const Pose& mean, const Noise& noise) {
   const Vec2 arm = felt.where - Vec2(mean.x, mean.y);  // from the contact to the origin, turned back
+  // The pose by a turn about the contact: the origin moves across the arm.
   const Eigen::Vector3d by_turn(arm.y(), -arm.x(), 1);
   const Eigen::Vector3d along(-std::sin(felt.facing), std::cos(felt.facing), 0);  // counter-clockwise
   const Eigen::Vector3d by_contact = along + felt.finger_curvature * by_turn;
@@ -150,7 +160,7 @@ Eigen::Matrix3d sensors_of_one(const MeasuredContact& felt, const Pose& mean, co
          noise.angle * noise.angle * by_angle * by_angle.transpose();
 }
 
-/// Of poses with a spread of their own.
+/// The spread over poses that each have their own: the mean covariance, and the covariance of the means.
 PoseSpread spread_over(const std::vector<Piece>& pieces) {
   const Pose reference = pieces.front().pose->mean;
   double total = 0;
@@ -184,10 +194,12 @@ double chord_share(const PerFinger<MeasuredContact>& felt, const Noise& noise) {
     const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
     across += square(radius * noise.angle);
   }
+  // Errors across the chord turn it by 1 / its length. Weights are as 1 / variance.
   const double by_chord = across / std::max((felt[1].where - felt[0].where).squaredNorm(), 1e-300);
   return by_normals / std::max(by_normals + by_chord, 1e-300);
 }
 
+/// By differences: one number at a time is off by a small step.
 PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<MeasuredContact>& felt, double chord) {
   const double step = kSlidStep * part.perimeter();
   const Pose reference = pose_with(part, at, told(felt, at), chord);
@@ -213,6 +225,7 @@ PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<Meas
 PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<MeasuredContact>& felt,
                           const Noise& noise) {
   if (pieces.empty()) return {};
+  // The rows themselves tell the pose: of one finger, in a log with centres.
   if (pieces.front().pose) return spread_over(pieces);
   const bool is_one = felt.size() == 1;
   const double chord = chord_share(felt, noise);
@@ -221,6 +234,7 @@ PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, co
   double total = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  // Mean and covariance about the first piece's pose. Each piece adds what the first contacts' slide leaves open.
   for (const Piece& piece : pieces) {
     const Eigen::Vector3d by = off(pose_with(part, piece, told(felt, piece), chord), reference);
     total += piece.share;

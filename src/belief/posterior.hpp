@@ -19,11 +19,11 @@
 // What one finger's posterior and two fingers' have in common.
 namespace rollfix::belief {
 
-// Samples that are off by more than this many times the noise can't be of this part and this finger.
+// Rows that are off by more than this many times the noise: nothing fits, the verdict is `inconsistent`.
 inline constexpr double kMostExcess = 2.5;
 // The farthest of the errors that are let pass, in standard deviations.
 inline constexpr double kFarthest = 4.5;
-// Of samples that are asked to be robust, this share is taken to be stray.
+// With `robust` this share of the rows is taken to be outliers.
 inline constexpr double kOutlierShare = 0.02;
 // The samples' cost is beyond what chance makes of it: this many standard deviations of a chi-square.
 inline constexpr double kExcessSigma = Fit::kMostSigmas;
@@ -37,7 +37,7 @@ inline constexpr double kMostScale = 0.5;
 inline constexpr double kValley = 3;
 // What an interval of a mode holds.
 inline constexpr double kCredible = 0.95;
-// A piece of the posterior with less of it is not told of.
+// A piece of the posterior with less of it is left out.
 inline constexpr double kLeastShare = 1e-9;
 
 /// Throws InputError: noise that is not valid, that is none, or beyond which a row says nothing.
@@ -45,13 +45,15 @@ void require_weighable(const Noise& noise);
 
 inline double square(double x) { return x * x; }
 
-/// The standard normal deviate that is as unlikely as this chi-square (Wilson and Hilferty 1931).
+/// The standard normal deviate that is as unlikely as this chi-square (Wilson and Hilferty 1931): its cube root is
+/// nearly normal, with mean 1 - 2 / (9 n) and variance 2 / (9 n) for chi_square / n, n = `freedom` > 0.
 inline double normal_deviate(double chi_square, double freedom) {
   const double spread = 2 / (9 * freedom);
   return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
 }
 
-/// Of a filter's equations, each in its standard deviations, in the order of the rows.
+/// Innovations of each of a filter's equations, in standard deviations, in the order of the rows. An equation that the
+/// filter does not have is empty.
 using Innovations = std::array<std::pmr::vector<double>, 3>;
 
 /// Whether a filter's innovations, each in its standard deviations, are as they should be: independent, none far out.
@@ -71,10 +73,11 @@ class Whiteness {
     ++count_;
   }
 
-  /// Of neighbours, below 1. Errors far smaller than said are not told apart: they do no harm.
+  /// Of neighbours, below 1. Innovations smaller than stated are not scaled up: if they are alike, it does no harm.
   double correlation() const { return count_ > 0 ? lag_ / std::max(squares_, count_) : 0; }
   /// How unlikely it is that independent ones run like these: as a standard normal deviate.
   double sigmas() const {
+    // Of independent innovations the lag-one correlation has the standard deviation 1 / sqrt(n).
     if (count_ < kFewestToCompare) return 0;
     const double neighbours = correlation() * std::sqrt(count_);
     // The integral of a squared Wiener process: nearly all of it is 4 / pi^2 times a chi-square of one degree.
@@ -87,17 +90,19 @@ class Whiteness {
 
  private:
   static constexpr double kFewestToCompare = 8;
+  // The integral of W^2 over [0, 1] is a sum of chi-squares by 4 / ((2 k - 1) pi)^2, k = 1, 2, ...: its mean is 1/2.
+  // The first is taken as it is, all others by their mean.
   static constexpr double kWanderOfFirst = 4 / (std::numbers::pi * std::numbers::pi);
   static constexpr double kWanderOfRest = 0.5 - kWanderOfFirst;
 
-  double last_ = 0;
-  double most_ = 0;
-  double lag_ = 0;
-  double sum_ = 0;
-  double sums_ = 0;
-  double squares_ = 0;
+  double last_ = 0;     // innovation
+  double most_ = 0;     // the largest square
+  double lag_ = 0;      // sum of the products of neighbours
+  double sum_ = 0;      // of all so far
+  double sums_ = 0;     // of the squares of these sums
+  double squares_ = 0;  // sum of the squares
   double count_ = 0;
-  std::pmr::vector<double>* kept_ = nullptr;
+  std::pmr::vector<double>* kept_ = nullptr;  // see record_to
 };
 
 /// How innovations run in the long term.
@@ -120,6 +125,7 @@ void add_innovation(const Eigen::Matrix<double, N, N>& inverse, const Eigen::Mat
   if constexpr (N == 1) {
     equations[0].add(std::sqrt(inverse(0, 0)) * innovation[0]);
   } else {
+    // With S^-1 = U^T U the numbers U e are independent and have the variance 1.
     const Eigen::Matrix<double, N, 1> independent = inverse.llt().matrixU() * innovation;
     for (int k = 0; k < N; ++k) equations[static_cast<std::size_t>(k)].add(independent[k]);
   }
@@ -138,14 +144,17 @@ inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& e
   Fit fit;
   fit.chi_square = cost;
   fit.freedom = freedom;
+  // No rows: nothing to compare.
   if (!(freedom > 0)) return fit;
   fit.sigmas = normal_deviate(cost, freedom);
   for (const Whiteness& each : equations) fit.row_sigmas = std::max(fit.row_sigmas, each.farthest());
+  // The equation whose innovations are least like independent ones speaks for all.
   const Whiteness& least_white =
       *std::max_element(equations.begin(), equations.end(),
                         [](const Whiteness& a, const Whiteness& b) { return a.sigmas() < b.sigmas(); });
   fit.correlation = least_white.correlation();
   fit.correlation_sigmas = least_white.sigmas();
+  // The noise is taken as larger only where chance does not explain the chi-square.
   if (fit.sigmas > kExcessSigma) fit.excess = std::max(1.0, std::sqrt(cost / freedom));
   fit.widened = fit.excess;
   if (fit.is_correlated()) {
@@ -160,7 +169,8 @@ inline void add_trend(const Trend& trend, double step, Fit& fit) {
   fit.trend_sigmas = trend.sigmas;
   const double widened = fit.excess * std::min(trend.widened, widened_by(kMostAlike));
   if (trend.sigmas > kExcessSigma) fit.widened = std::max(fit.widened, widened);
-  // As large as said, and correlated by exp(-step / length), neighbours differ by 1 less that: the variogram.
+  // The variogram: of innovations with variance 1 and correlation exp(-step / length), half the mean squared difference
+  // of neighbours is 1 - exp(-step / length). Solved for the length.
   const bool may_be_alike = fit.is_too_good() && trend.jitter > 0 && trend.jitter < 1;
   // Of rows that are alike from end to end it can't be told how much longer it is than the roll.
   fit.alike_over = may_be_alike ? step * std::min(-1 / std::log1p(-trend.jitter), trend.count) : 0;
@@ -172,15 +182,15 @@ inline double peak_of(double inverse) { return std::sqrt(inverse / (2 * std::num
 /// How far a scale of lengths is believed, given its variance.
 inline double most_scale(double variance) { return std::min(kMostScale, kMostErrorSigmas * std::sqrt(variance)); }
 
-/// A row that is right, or stray: then it says nothing.
+/// A row that is right, or an outlier: then it says nothing.
 struct Mixture {
-  double weight;   // probability that it is right
-  double cost;     // minus twice the logarithm of its likelihood, as a share of what it can be at most, ...
-  double density;  // ... which is this
+  double weight;   // probability that it is right, given how far it is off
+  double cost;     // minus twice the logarithm of its density over the highest one: at least 0, and bounded ...
+  double density;  // ... the highest density of the mixture
 };
 
-/// `stray`: density of a stray row. `peak`: the highest of a right one, which is off by so much, squared, in standard
-/// deviations.
+/// `share`: of outliers. `stray`: density of an outlier, times that share. `peak`: the highest density of a right row,
+/// which is off by `squared`, in standard deviations, squared.
 inline Mixture mixture_of(double share, double stray, double peak, double squared) {
   const double right = (1 - share) * peak;
   const double fits = right * std::exp(-0.5 * squared);

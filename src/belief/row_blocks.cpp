@@ -26,6 +26,8 @@ constexpr double kMostTurnOfCell = 0.05;
 
 }  // namespace
 
+/// Each spiral is cut into cells of equal length, as many as both bounds ask for. Cells share their ends, so that the
+/// path has no gaps; tangents at a cell's ends are its spiral's, so that corners stay sharp.
 BoundaryPath::BoundaryPath(const Part& part) : closed_(part.closed()), perimeter_(part.perimeter()) {
   const TurningFunction& turning = part.turning();
   std::vector<double> starts;
@@ -49,9 +51,11 @@ BoundaryPath::BoundaryPath(const Part& part) : closed_(part.closed()), perimeter
   buckets_ = Buckets(starts, perimeter_);
 }
 
+/// By Hermite's cubic on the cell of s; beyond an open outline's ends along the tangent there.
 Vec2 BoundaryPath::at(double s) const {
   const double place = closed_ ? wrap(s, perimeter_).base : std::clamp(s, 0.0, perimeter_);
   std::size_t k = buckets_.before(place);
+  // A bucket may begin a few cells early.
   while (k + 1 < cells_.size() && cells_[k + 1].s <= place) ++k;
   const Cell& cell = cells_[k];
   const double x = (place - cell.s) / cell.length;
@@ -61,18 +65,21 @@ Vec2 BoundaryPath::at(double s) const {
   const Vec2 c = cell.by_from + cell.by_to - 2 * rise;
   Vec2 on_path = cell.from + x * (cell.by_from + x * (b + x * c));
   if (closed_ || place == s) return on_path;
+  // Derivatives are by the share of the cell: divided by its length they are by s.
   const Vec2& along = s < 0 ? cell.by_from : cell.by_to;
   return on_path + (s - place) / cell.length * along;
 }
 
 namespace {
 
+/// Adds a centre and its arm, as vectors in the world and in the normal's frame, by a factor.
 void add_share(FeltCentre& sum, double factor, const FeltCentre& felt) {
   sum.centre += factor * felt.centre;
   sum.arm.at += factor * felt.arm.at;
   sum.arm.per_length += factor * felt.arm.per_length;
 }
 
+/// Of an even number the mean of the two in the middle. It sorts the values in part.
 double median(std::span<double> values) {
   const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), upper, values.end());
@@ -82,6 +89,7 @@ double median(std::span<double> values) {
 
 }  // namespace
 
+/// Number by number: lengths and turn of the result need not be of one row.
 Reading median_of(std::span<const Reading> rows) {
   Reading middle = rows.front();
   if (rows.size() == 1) return middle;
@@ -100,6 +108,7 @@ Reading median_of(std::span<const Reading> rows) {
 std::size_t rows_of_median(bool robust, std::size_t stride) { return robust ? std::min(stride, kRowsOfMedian) : 1; }
 
 JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
+  // Increments: the last row has all errors of those before it, and says as much as all.
   if (errors_.gathers_rows()) {
     JoinedRows last = b;
     last.rows += a.rows;
@@ -115,14 +124,18 @@ JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
   both.turn = of_a * a.turn + of_b * b.turn;
   both.sensed = of_a * a.sensed + of_b * b.sensed;
   both.middle = of_a * a.middle + of_b * b.middle;
+  // The variance within both and between their means.
   both.scatter = of_a * a.scatter + of_b * b.scatter + of_a * of_b * apart * apart;
+  // Independent errors: shares enter squared.
   both.own = of_a * of_a * a.own + of_b * of_b * b.own;
   add_share(both.felt, of_a, a.felt);
   add_share(both.felt, of_b, b.felt);
   return both;
 }
 
+/// Rows fill a median, medians fill the block. Of increments each row replaces what the block had.
 bool RowBlocks::add(const Row& row) {
+  // How many rows a taught part is off for alike depends on all rows so far, and on the boundary they are spread over.
   rows_ += 1;
   sum_.rows += 1;
   sum_.seconds = row.seconds;
@@ -139,6 +152,7 @@ bool RowBlocks::add(const Row& row) {
     close_median(sum_, medians_);
     of_median_.clear();
   }
+  // The block is full: it is closed, and a new one is open and empty.
   if (sum_.rows < static_cast<double>(stride_)) return false;
   blocks_.push_back(open());
   sum_ = {};
@@ -147,18 +161,20 @@ bool RowBlocks::add(const Row& row) {
   return true;
 }
 
+/// Adds the median of the rows that wait for it to these sums; times and centres are means. Nothing where no row waits.
 void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
   if (of_median_.empty()) return;
   std::array<Reading, kRowsOfMedian> readings;
   for (std::size_t k = 0; k < of_median_.size(); ++k) {
     const Row& row = of_median_[k];
     readings[k] = row.reading;
+    // Sums over medians: the means of these rows count as one.
     const double share = 1 / static_cast<double>(of_median_.size());
     sum.sensed += share * row.sensed;
     sum.middle += share * row.seconds;
     add_share(sum.felt, share, row.felt);
   }
-  // Worth one row: a median of rows on a slope is hardly better.
+  // Counts as one row: where rows lie on a slope their median is about as noisy as one of them.
   const Reading middle = median_of(std::span(readings).first(of_median_.size()));
   // The variance among the medians so far, times their number (West 1979).
   if (medians > 0) {
@@ -171,6 +187,7 @@ void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
   medians += 1;
 }
 
+/// Sums over medians as means; the rows that wait are taken as a median of their own. REQUIRES has_open().
 JoinedRows RowBlocks::open() const {
   JoinedRows sum = sum_;
   double medians = medians_;
@@ -183,6 +200,7 @@ JoinedRows RowBlocks::open() const {
   return rows;
 }
 
+/// REQUIRES an even number of blocks.
 void RowBlocks::halve() {
   for (std::size_t k = 0; 2 * k + 1 < blocks_.size(); ++k) {
     blocks_[k] = joined(blocks_[2 * k], blocks_[2 * k + 1]);

@@ -30,17 +30,17 @@ class BoundaryPath {
 
  private:
   struct Cell {
-    double s;
-    double length;
-    Vec2 from;
+    double s;       // where it begins
+    double length;  // of the cell, above 0
+    Vec2 from;      // positions at both ends
     Vec2 to;
     Vec2 by_from;  // derivatives by the share of the cell
     Vec2 by_to;
   };
 
-  bool closed_;
+  bool closed_;  // the outline's
   double perimeter_;
-  std::vector<Cell> cells_;
+  std::vector<Cell> cells_;  // in order of s, without gaps
   Buckets buckets_;
 };
 
@@ -52,11 +52,11 @@ struct FeltCentre {
 
 /// What all hypotheses about one finger's roll have in common.
 struct CentreModel {
-  const Part* part = nullptr;
+  const Part* part = nullptr;          // that is rolled on
   const BoundaryPath* path = nullptr;  // where centres are evidence
   bool has_place = false;              // the centre was felt; else only the normal
-  FeltCentre first;
-  double facing = 0;        // N(u) + psi at the first contact, radians
+  FeltCentre first;                    // at the first contact
+  double facing = 0;                   // N(u) + psi at the first contact, radians
   double variance = 0;      // of a coordinate, each row on its own; 0: they are no evidence, but tell the pose
   double radius_share = 0;  // of the variance of the scale of lengths, as far as it is a wrong radius
 };
@@ -97,7 +97,8 @@ struct JoinedRows {
 /// then on twice as many rows make one.
 class RowBlocks {
  public:
-  /// `robust`: of rows that make a block together medians are taken first, so that a stray one does not move it.
+  /// `robust`: medians of the rows of a block are taken first, so that an outlier does not move its mean. `most`:
+  /// blocks at which neighbours are to be joined.
   RowBlocks(const ErrorModel& errors, double tilt, bool robust, std::size_t most, std::pmr::memory_resource* memory)
       : errors_(errors), tilt_(tilt), robust_(robust), most_(most), blocks_(memory), of_median_(memory) {}
 
@@ -120,12 +121,12 @@ class RowBlocks {
   void close_median(JoinedRows& sum, double& medians) const;
 
   ErrorModel errors_;
-  double tilt_;
-  bool robust_;
-  std::size_t most_;
+  double tilt_;             // c of w = Theta + c s
+  bool robust_;             // medians are taken
+  std::size_t most_;        // blocks
   std::size_t stride_ = 1;  // rows of a block
-  double rows_ = 0;
-  Interval range_;  // of all lengths so far
+  double rows_ = 0;         // of the roll so far
+  Interval range_;          // of all lengths so far
   std::pmr::vector<JoinedRows> blocks_;
   // Of the block that is being made: sums over medians of rows, and the rows of the median that is being filled.
   JoinedRows sum_;
@@ -134,7 +135,7 @@ class RowBlocks {
   RowCovariance own_;  // of one of its rows
 };
 
-// Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
+// Rows of which a median is taken: enough that several outliers don't matter, few enough to lie close together.
 inline constexpr std::size_t kRowsOfMedian = 16;
 /// What rows that are taken together come to: each number's median. REQUIRES no more than kRowsOfMedian.
 Reading median_of(std::span<const Reading> rows);

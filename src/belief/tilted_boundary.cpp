@@ -45,11 +45,12 @@ constexpr double kKink = 1e-3;
 constexpr double kBend = 0.02;
 // Places look alike where s is the same to this share of the perimeter: to what it is known to as a function of w.
 constexpr double kAlike = kShareOfPerimeter;
-// More folds than these save nothing: the first cells are hardly more.
+// No more folds are looked for: a grid begins with about as many cells, so that more folds would save nothing.
 constexpr std::size_t kMostFolds = 64;
 
 /// Solves Theta + c s = w for s on [lo, hi], where it grows: Newton's steps, kept within.
 double place_of(const TurningFunction& turning, const Spiral& spiral, double tilt, double w, double lo, double hi) {
+  // The root stays within [lo, hi]: a step of Newton's that leaves it becomes a bisection.
   double s = 0.5 * (lo + hi);
   for (int round = 0; round < 60; ++round) {
     const Turning here = turning.on_spiral(spiral, s);
@@ -63,6 +64,7 @@ double place_of(const TurningFunction& turning, const Spiral& spiral, double til
   return s;
 }
 
+/// The least kappa anywhere, at most 0. On a spiral kappa is monotone: its ends have the least.
 double least_curvature(const TurningFunction& turning) {
   double least = 0;
   for (const Spiral& spiral : turning.spirals()) {
@@ -86,17 +88,22 @@ Buckets::Buckets(const std::vector<double>& starts, double end) : lo_(starts.fro
   }
 }
 
+/// Beyond the ends of an arc that is no loop a contact stays at the end.
 TiltedPlace TiltedArc::at(double w) const {
   if (!loop_ && w <= lo()) return {cells_.front().s, 0};
   if (!loop_ && w >= hi_) return {end_, 0};
   return on(find(w));
 }
 
+/// Rows are spread evenly with variance `spread` about a w that is normal with `variance`. Where no kink is within
+/// reach and s(w) bends little among the rows, its tangent serves, and the mean of rows is off by half the bend times
+/// their variance. Else the line is that of least squares through three points, and what it misses is a variance.
 SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
   const double reach = kSigmaPoint * std::sqrt(variance + spread);
   if (loop_ || (w > lo() && w < hi_)) {
     const Found found = find(w);
     const TiltedPlace place = on(found);
+    // d2s/dw2 of the cell's cubic.
     const double bend = 2 * (found.cell->cubic.b + 3 * found.x * found.cell->cubic.c);
     const bool is_straight = bend * bend * spread <= kBend * kBend * place.slope * place.slope;
     if (is_straight && found.x - reach > found.cell->kink_below && found.x + reach < found.cell->kink_above) {
@@ -114,12 +121,14 @@ SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
   return {mean, reach > 0 ? half / reach : 0, bend * bend / 18};
 }
 
+/// Both sides of a small concave joint reach w: the cells before that begin above w are dropped, the one after is cut.
 void TiltedArc::join(std::size_t begin, double w) {
   std::size_t before = begin;
   while (before > 1 && cells_[before - 1].w >= w) --before;
   std::size_t after = begin;
   while (after + 1 < cells_.size() && cells_[after + 1].w <= w) ++after;
   Cell& cut = cells_[after];
+  // The cubic about its new start: value, slope and second derivative as there.
   const double x = w - cut.w;
   const Cubic& cubic = cut.cubic;
   cut = {w, cut.s + cubic.at(x), {cubic.slope(x), cubic.b + 3 * x * cubic.c, cubic.c}};
@@ -127,9 +136,11 @@ void TiltedArc::join(std::size_t begin, double w) {
                cells_.begin() + static_cast<std::ptrdiff_t>(after));
 }
 
+/// Where the slope jumps from cell to cell by more than kKink, and how far each cell is from the nearest such w.
 void TiltedArc::mark_kinks() {
   const std::size_t count = cells_.size();
   const auto slope_before = [&](std::size_t k) {
+    // Before an arc's start s does not grow: the start is a kink, and so is the end.
     if (k == 0 && !loop_) return 0.0;
     const Cell& cell = cells_[k == 0 ? count - 1 : k - 1];
     const double x = (k == 0 ? hi_ : cells_[k].w) - cell.w;
@@ -143,6 +154,7 @@ void TiltedArc::mark_kinks() {
   }
   if (!loop_) kinks_.push_back(hi_);
   std::vector<double> kinks = kinks_;
+  // On a loop the last kink is before the first, and the first after the last, a lap away.
   if (loop_ && !kinks.empty()) {
     const double last = kinks.back();
     kinks.push_back(kinks.front() + (hi_ - lo()));
@@ -156,10 +168,13 @@ void TiltedArc::mark_kinks() {
   }
 }
 
+/// Arcs begin and end at concave corners and at an open outline's ends. Each spiral adds cubics, each convex corner a
+/// cell on which s stays. A closed outline without concave corners is one loop.
 TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) {
   const TurningFunction& turning = part.turning();
   const std::vector<Spiral>& spirals = turning.spirals();
   const std::size_t count = spirals.size();
+  // kappa + c >= kLeastSlopeShare c everywhere, as c >= -kappa / (1 - kLeastSlopeShare).
   tilt_ = std::max(least, -least_curvature(turning) / (1 - kLeastSlopeShare));
   // A hole turns by -2 pi: w must grow all the same.
   tilt_ = std::max(tilt_, -2 * turning.period_turn() / turning.perimeter());
@@ -172,6 +187,7 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     if (k > 0) return spirals[k].start.angle - spirals[k - 1].end.angle;
     return part.closed() ? spirals.front().start.angle + turning.period_turn() - spirals.back().end.angle : 0.0;
   };
+  // A closed outline with a concave corner is begun at it: no arc goes on across the seam.
   std::size_t first = 0;
   bool is_cut = !part.closed();
   for (std::size_t k = 0; k < count && !is_cut; ++k) {
@@ -182,9 +198,11 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
   }
 
   for (std::size_t n = 0; n < count; ++n) {
+    // Spirals beyond the seam are a lap further on.
     const std::size_t k = (first + n) % count;
     const double winding = first + n >= count ? 1 : 0;
     const double jump = jump_before(k);
+    // At a concave corner no finger rolls on: a new arc.
     if (n == 0 || jump <= -kJointTurn) {
       arcs_.emplace_back();
       arcs_.back().loop_ = !is_cut;
@@ -203,6 +221,7 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     if (goes_on && jump < 0) arc.join(spiral_begin, w - 0.5 * jump);
   }
   for (TiltedArc& arc : arcs_) {
+    // A loop ends where it begins, one lap on; cells that rounding put beyond are dropped.
     if (arc.loop_) arc.hi_ = arc.lo() + all_w_;
     while (arc.cells_.back().w >= arc.hi_) arc.cells_.pop_back();
     arc.mark_kinks();
@@ -216,6 +235,8 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
   if (part.closed()) folds_ = count_folds();
 }
 
+/// The largest m for which the boundary repeats itself after one m-th of it; at most one fold for each cell. Several
+/// arcs must repeat as a whole number of arcs.
 std::size_t TiltedBoundary::count_folds() const {
   std::size_t cells = 0;
   for (const TiltedArc& arc : arcs_) cells += arc.cells_.size();
@@ -228,7 +249,8 @@ std::size_t TiltedBoundary::count_folds() const {
   return 1;
 }
 
-// A cell's cubic is known by its ends and two places in between.
+/// Whether s(w + shift.w) = s(w) + shift.s on all arcs, the ends of arcs included. A cell's cubic is known by its ends
+/// and two places in between.
 bool TiltedBoundary::repeats_after(const Shift& shift) const {
   for (std::size_t a = 0; a + shift.arcs < arcs_.size(); ++a) {
     const TiltedArc& arc = arcs_[a];
@@ -247,11 +269,14 @@ bool TiltedBoundary::repeats_after(const Shift& shift) const {
   return true;
 }
 
+/// Folds are equal: so many m-ths of w, of s and of the arcs. A loop has one arc.
 Shift TiltedBoundary::shift(std::size_t folds) const {
   const double share = static_cast<double>(folds) / static_cast<double>(folds_);
   return {arcs_.front().loop() ? 0 : folds * (arcs_.size() / folds_), all_w_ * share, perimeter_ * share};
 }
 
+/// Cubics through s(w) and its slope at both ends, on halves of the spiral until the middle is within `accuracy`.
+/// `winding`: laps of s.
 void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& spiral, double winding, double accuracy,
                                 TiltedArc& arc) const {
   const double shift = winding * turning.perimeter();
@@ -259,7 +284,7 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
   struct Knot {
     double s;
     double w;
-    double slope;
+    double slope;  // ds/dw
   };
   const auto knot_at = [&](double s, const Turning& here) {
     return Knot{s, here.angle + tilt_ * s, 1 / (here.curvature + tilt_)};
@@ -270,10 +295,12 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
     int depth;
   };
   std::vector<Task> tasks{{knot_at(spiral.lo, spiral.start), knot_at(spiral.hi, spiral.end), 0}};
+  // The stack has the rest of the spiral in order of w: its top begins where the last cell ends.
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
     const double h = task.hi.w - task.lo.w;
+    // No length: nothing to add.
     if (h <= 0) continue;
     const Cubic cubic = Cubic::through(h, task.hi.s - task.lo.s, task.lo.slope, task.hi.slope);
     const double x = 0.5 * h;
@@ -292,17 +319,20 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
   arc.end_ = spiral.hi + shift;
 }
 
+/// Bounded on both sides where no finger's curvature is known, or of a jaw. 1 / length.
 double tilt_of(double finger_curvature, double even, const Part& part) {
   const double P = part.perimeter();
   if (finger_curvature > 0) return finger_curvature;
   return std::min(std::max(even, kLeastTurns * 2 * std::numbers::pi / P), kMostTilt / P);
 }
 
+/// Of s, between kShareOfPerimeter and kLeastAccuracy of the perimeter. Length.
 double accuracy_of(double contact_sd, const Part& part) {
   const double P = part.perimeter();
   return std::min(std::max(kShareOfPerimeter * P, kShareOfNoise * contact_sd), kLeastAccuracy * P);
 }
 
+/// r, or P / 2 pi.
 double corner_length(double finger_curvature, const Part& part) {
   return finger_curvature > 0 ? 1 / finger_curvature : part.perimeter() / (2 * std::numbers::pi);
 }

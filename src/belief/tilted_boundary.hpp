@@ -12,9 +12,9 @@ namespace rollfix::belief {
 
 /// Hermite's: from 0 at x = 0, with the slope a there.
 struct Cubic {
-  double a = 0;
-  double b = 0;
-  double c = 0;
+  double a = 0;  // slope at x = 0
+  double b = 0;  // half the second derivative there
+  double c = 0;  // a sixth of the third
 
   /// Through a rise over a step, with these slopes at its ends.
   static Cubic through(double step, double rise, double slope_lo, double slope_hi) {
@@ -119,18 +119,18 @@ class TiltedArc {
   void join(std::size_t begin, double w);
   void mark_kinks();
 
-  bool loop_ = false;
-  double perimeter_ = 0;
-  double hi_ = 0;
-  double end_ = 0;  // s at hi
-  std::vector<Cell> cells_;
+  bool loop_ = false;        // a closed boundary without concave corners
+  double perimeter_ = 0;     // of the boundary, s of a lap
+  double hi_ = 0;            // w where it ends
+  double end_ = 0;           // s at hi
+  std::vector<Cell> cells_;  // in order of w
   std::vector<double> kinks_;
   Buckets buckets_;
 };
 
 /// How far one of the places that look alike is from another, and on which arc it is then.
 struct Shift {
-  std::size_t arcs = 0;
+  std::size_t arcs = 0;  // further on, of a boundary of several
   double w = 0;
   double s = 0;
 };
@@ -158,7 +158,7 @@ class TiltedBoundary {
   double perimeter_ = 0;
   double all_w_ = 0;  // once around
   std::size_t folds_ = 1;
-  std::vector<TiltedArc> arcs_;
+  std::vector<TiltedArc> arcs_;  // in order along the boundary
 };
 
 /// The tilt to ask for: a disk's curvature; else `even`, what makes lengths and angles, as uncertain as they are, count

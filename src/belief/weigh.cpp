@@ -29,7 +29,8 @@ constexpr double kAtCorner = 1e-9;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// One finger: curvatures at both ends of the roll decide how the start moves with the reading.
+/// Of one finger: with f' = kappa(s + L) - kappa(s), ds/dtheta = 1 / f' and ds/dL = -kappa(s + L) / f'. NaN where f' is
+/// 0: at a double root, on an arc or a straight side.
 Sensitivity sensitivity_at(const Part& part, const std::vector<Reading>& readings, double s) {
   Sensitivity sensitivity;
   for (const Reading& reading : readings) {
@@ -42,7 +43,8 @@ Sensitivity sensitivity_at(const Part& part, const std::vector<Reading>& reading
   return sensitivity;
 }
 
-/// How far a mode's start is outside a placement's extent, in the mode's standard deviations.
+/// How far a mode's start is outside a placement's extent, in the mode's standard deviations: of two fingers the larger
+/// one. 0 inside.
 double off_placement(const Placement& placement, const Mode& mode, const Part& part) {
   double most = 0;
   for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
@@ -53,6 +55,7 @@ double off_placement(const Placement& placement, const Mode& mode, const Part& p
   return most;
 }
 
+/// Each finger's place is in its interval of the box.
 bool lies_in(const PerFinger<Interval>& box, const PerFinger<double>& at, const Part& part) {
   for (std::size_t finger = 0; finger < at.size(); ++finger) {
     if (!part.boundary().contains(box[finger], at[finger])) return false;
@@ -78,10 +81,12 @@ Placement within(const Placement& found, const Mode& mode, const Part& part) {
   for (const PerFinger<double>& root : found.roots) {
     if (lies_in(mode.region, root, part)) placement.roots.push_back(root);
   }
+  // A pivot stays at its corner: there is no extent to cut.
   if (found.kind == Kind::corner) return placement;
   for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
     const Interval& region = mode.region[finger];
     const Interval& extent = found.extent[finger];
+    // The whole extent lies in the region: nothing to cut. A wider one becomes the region.
     const bool is_all = part.boundary().contains(region, extent.lo) && extent.width() <= region.width();
     if (is_all) continue;
     if (found.whole_loop[finger] || extent.width() > region.width()) placement.extent[finger] = region;
@@ -93,6 +98,7 @@ Placement within(const Placement& found, const Mode& mode, const Part& part) {
 /// Whether a finger can be at a convex corner at the first contact or where one of the readings ends, as far as 95 %
 /// go.
 bool is_at_a_corner(const Part& part, const std::vector<Reading>& readings, const Mode& mode) {
+  // Does the interval hold a convex corner?
   const auto holds_one = [&](const Interval& s) {
     return std::any_of(part.corners().begin(), part.corners().end(), [&](const Corner& corner) {
       return !corner.is_concave() && part.boundary().distance(s, corner.s) <= kAtCorner * part.perimeter();
@@ -101,6 +107,7 @@ bool is_at_a_corner(const Part& part, const std::vector<Reading>& readings, cons
   for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
     const Interval& first = mode.interval[finger];
     if (holds_one(first)) return true;
+    // How far the end of a roll is known adds to the interval.
     const double beyond = kTwoSides * mode.end_sd[finger];
     for (const Reading& reading : readings) {
       const double length = reading.length[finger];
@@ -131,6 +138,7 @@ Placement with_mode(Placement placement, const Mode& mode, const Part& part) {
 
 }  // namespace
 
+/// Each mode with the nearest placement of the search, if one is near; else by itself.
 Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing,
               const std::vector<Placement>& found, Belief& belief) {
   const ContactEquations question{part, readings, facing};
@@ -139,6 +147,7 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std:
   for (const Mode& mode : belief.modes()) {
     const Placement* nearest = nullptr;
     double least = kInfinity;
+    // The placement that the mode's start is least outside of. All that are near have this mode.
     for (std::size_t k = 0; k < found.size(); ++k) {
       const double off = off_placement(found[k], mode, part);
       if (off < least) {
@@ -155,6 +164,7 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std:
     Placement placement = with_mode(is_found ? within(*nearest, mode, part) : placement_of(mode), mode, part);
     // Within a wide tolerance one placement spans several corners, and its pivot is of one of them.
     if (placement.pivot) placement.pivot = pivots_at(question, mode.start, placement.end);
+    // At a corner f is not a function of s alone: there one finger keeps what the search found.
     const bool is_of_one = mode.start.size() == 1;
     if (!is_of_one || placement.kind != Kind::corner) placement.residual = residual_at(question, mode.start);
     if (is_of_one && placement.kind != Kind::corner) {

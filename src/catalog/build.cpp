@@ -17,31 +17,39 @@
 #include "rollfix/inspect.hpp"
 #include "work/crew.hpp"
 
+// Builds a catalog: threads read sources and measure their parts, the calling thread writes them in order.
+//   source          a file, a gallery shape or a part that is there, with a stamp that shows whether it has changed
+//   stamp           size and time of the file, or a checksum of the part, and the options that it was taken with
+//   ready           all that a source holds, measured and encoded, in the catalog's unit
+//   transaction     several sources at once: whole or not at all, with the catalog's checksum brought up to date
+// Follows docs/identify.md, "The catalog". Several builds at once are allowed: each looks again, within its
+// transaction, whether another one was faster.
 namespace rollfix::catalog {
 namespace {
 
-// Sources that may be ready before one that takes long is.
+// Sources that may be ready before one that takes long is: bounds the memory that they wait in.
 constexpr std::size_t kMostWaiting = 512;
 
 /// A part, ready to be written.
 struct ReadyPart {
-  CatalogEntry entry;
-  double period_turn = 0;
-  double most_curvature = 0;
-  bool measured = false;
-  std::string cells;  // of 64, ...
-  std::string fine;   // ... and of 256
-  PartRecord record;
+  CatalogEntry entry;         // its id is not known yet: 0
+  double period_turn = 0;     // turn of a lap, radians
+  double most_curvature = 0;  // the largest |kappa|
+  bool measured = false;      // the outline is not exact, as of a taught part
+  std::string cells;          // of 64, ...
+  std::string fine;           // ... and of 256
+  PartRecord record;          // its outline, as bytes
 };
 
 /// All that a source holds.
 struct ReadySource {
-  std::vector<ReadyPart> parts;
-  std::vector<LeftOut> left_out;
-  std::vector<std::string> notes;
-  std::string unit;
-  bool again = false;  // left out for what the next build may say
+  std::vector<ReadyPart> parts;    // of a drawing one for each closed loop
+  std::vector<LeftOut> left_out;   // what could not be used of it
+  std::vector<std::string> notes;  // of the reader, for people
+  std::string unit;                // of its lengths; empty: not known
+  bool again = false;              // left out for what the next build may say
 
+  /// All of it is left out. It has no stamp then, so that the next build tries again.
   void leave_out(const CatalogSource& source, const std::string& why) {
     parts.clear();
     left_out.push_back({source.name, fmt::format("{}: {}", source.argument, why)});
@@ -54,7 +62,9 @@ std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
   std::error_code error;
   const auto size = std::filesystem::file_size(source.argument, error);
   const auto time = std::filesystem::last_write_time(source.argument, error);
+  // A gallery shape has no file: its name says all.
   std::string file = error ? "" : fmt::format("{} {}", size, time.time_since_epoch().count());
+  // A part that is given has no file: its shape is its state.
   if (source.part) {
     const PartRecord record = record_of(*source.part);
     file = fmt::format("{:016x}", checksum(record.outline + record.numbers));
@@ -74,17 +84,20 @@ std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
                                  options.load.outer ? "|outer" : ""));
 }
 
+/// The same options with all lengths in this unit.
 BuildOptions in_unit(BuildOptions options, const std::string& unit) {
   options.load.points.unit = unit;
   return options;
 }
 
+/// Measures a part and encodes it. The 64 cells that are stored are made of the 256, so that both agree.
 ReadyPart ready_part(const Part& part, const std::string& name, double count) {
   ReadyPart ready;
   ready.entry = {0, name, part.perimeter(), symmetry(part), part.closed(), part.reversed(), count};
   ready.period_turn = part.turning().period_turn();
   ready.most_curvature = part.turning().most_curvature();
   ready.measured = !part.outline().accuracy.is_exact();
+  // Bounds that are asked first are computed now, once; the part itself is stored as its outline.
   const Profile<kFineCells> fine = profile_of(part);
   ready.cells = bytes_of(coarser(fine));
   ready.fine = fine_bytes_of(fine, coarser(fine));
@@ -98,19 +111,24 @@ ReadySource read_source(const CatalogSource& source, const BuildOptions& options
   try {
     const LoadedPart loaded =
         source.part ? loaded_part(*source.part, options.load) : load_part(source.argument, options.load);
+    // Notes and unit are the source's, whatever becomes of its parts.
     ready.notes = loaded.notes;
     ready.unit = loaded.unit;
     std::vector<const Loop*> closed;
+    // Open lines of a drawing are no parts beside closed loops.
     for (const Loop& loop : loaded.loops) {
       if (loop.outline.closed) closed.push_back(&loop);
     }
+    // One outline, or an open one: one part under the source's own name.
     if (closed.size() < 2 || options.load.points.open) {
       ready.parts.push_back(ready_part(loaded.part, source.name, source.count));
       return ready;
     }
+    // Each loop by itself: one that can't be used does not keep the others out.
     for (std::size_t k = 0; k < closed.size(); ++k) {
       const std::string name = fmt::format("{}#{}", source.name, k + 1);
       try {
+        // The loop that the reader has chosen is a part already.
         const bool is_loaded = k + 1 == loaded.loop;
         const Part part = is_loaded ? loaded.part : Part(closed[k]->outline, {options.load.allow_crossing});
         ready.parts.push_back(ready_part(part, name, source.count));
@@ -130,7 +148,9 @@ bool states_a_length(const std::string& unit) { return !unit.empty() && unit != 
 /// The same in the catalog's unit, where that is known and the options say none. What states no unit is left out.
 ReadySource in_catalogs_unit(ReadySource ready, const CatalogSource& source, const BuildOptions& options,
                              const std::string& unit) {
+  // Nothing to convert: no unit is known yet, the options decide, or it is the same.
   if (unit.empty() || !options.load.points.unit.empty() || ready.parts.empty() || ready.unit == unit) return ready;
+  // The catalog counts in pixels: no length can be converted to these.
   if (states_a_length(ready.unit) && !states_a_length(unit)) {
     ready.leave_out(source, fmt::format("is in {0}, and the catalog is in {1}, as its first part: build another file, "
                                         "with `unit` {0}",
@@ -138,6 +158,7 @@ ReadySource in_catalogs_unit(ReadySource ready, const CatalogSource& source, con
     return ready;
   }
   if (states_a_length(ready.unit)) return read_source(source, in_unit(options, unit));
+  // No unit in a catalog that has one: guessing would be off by a factor.
   ready.leave_out(source, fmt::format("nobody says in what its lengths are, and the catalog is in {0}: give `unit` {0} "
                                       "where they are as well",
                                       unit));
@@ -150,6 +171,7 @@ class Waiting {
   /// Waits where too much is ready before number k. False: nobody takes it any more.
   bool put(std::size_t k, ReadySource source) {
     std::unique_lock lock(mutex_);
+    // The next one in order never waits, so that this can't block for ever.
     room_.wait(lock, [&] { return is_closed_ || k < next_ + kMostWaiting; });
     if (is_closed_) return false;
     ready_.emplace(k, std::move(source));
@@ -160,6 +182,7 @@ class Waiting {
   std::vector<std::pair<std::size_t, ReadySource>> take() {
     const std::lock_guard lock(mutex_);
     std::vector<std::pair<std::size_t, ReadySource>> taken;
+    // Invariant: all below `next_` were taken, in order.
     for (auto first = ready_.begin(); first != ready_.end() && first->first == next_; first = ready_.begin()) {
       taken.emplace_back(first->first, std::move(first->second));
       ready_.erase(first);
@@ -169,6 +192,7 @@ class Waiting {
     return taken;
   }
 
+  /// Nothing is taken any more: threads that wait in put() go on, and end.
   void close() {
     const std::lock_guard lock(mutex_);
     is_closed_ = true;
@@ -177,9 +201,9 @@ class Waiting {
 
  private:
   std::mutex mutex_;
-  std::condition_variable room_;
-  std::map<std::size_t, ReadySource> ready_;
-  std::size_t next_ = 0;
+  std::condition_variable room_;              // for another one: `next_` has grown, or it is closed
+  std::map<std::size_t, ReadySource> ready_;  // by number, what was not taken yet
+  std::size_t next_ = 0;                      // number of the next one to be taken
   bool is_closed_ = false;
 };
 
@@ -200,8 +224,11 @@ class NoEmptyFile {
   std::string path_;
 };
 
+/// Writes to a catalog, and keeps its checksum. `write` has to be called within a transaction that commit() ends.
 class CatalogWriter {
  public:
+  /// Makes the tables of a new file. `unit`: of all lengths; empty: not said. Throws InputError: a catalog in another
+  /// unit.
   CatalogWriter(const std::string& path, const std::string& unit) : database_(path, Database::Access::write) {
     make_tables(database_);
     // What is reported as done survives a crash of the machine.
@@ -219,6 +246,7 @@ class CatalogWriter {
 
   const std::string& unit() const { return unit_; }
 
+  /// The stamp of each source that is there, by its argument.
   std::unordered_map<std::string, std::string> stamps() const {
     std::unordered_map<std::string, std::string> stamps;
     Statement rows = database_.prepare("SELECT argument, stamp FROM sources");
@@ -226,6 +254,7 @@ class CatalogWriter {
     return stamps;
   }
 
+  /// How many parts are there.
   std::size_t parts() const {
     Statement asked = database_.prepare("SELECT count(*) FROM parts");
     asked.step();
@@ -234,12 +263,15 @@ class CatalogWriter {
 
   /// In place of what was there of this source, in the catalog's unit.
   void write(const CatalogSource& source, const BuildOptions& options, ReadySource& ready, BuildReport& report) {
+    // Taken now, when it is written, and looked up within the transaction.
     const std::string stamp = stamp_of(source, options);
     if (is_there(source.argument, stamp)) {  // another build was faster
       ++report.unchanged;
       return;
     }
     unit_ = fact(database_, "unit");  // which that may have set
+    // The first part that states a unit sets the catalog's. Parts that are there without one could be in any: the new
+    // one is left out.
     if (unit_.empty() && !ready.unit.empty() && !ready.parts.empty()) {
       if (parts() == 0) {
         set_unit(ready.unit);
@@ -250,12 +282,15 @@ class CatalogWriter {
                                     ready.unit));
       }
     }
+    // The unit may have been set since the source was read: then it is read again.
     ready = in_catalogs_unit(std::move(ready), source, options, unit_);
+    // All that was there of this source goes, also where less of it can be used now.
     if (forget(source.argument)) ++report.replaced;
     Statement put = database_.prepare("INSERT INTO sources (argument, stamp) VALUES (?, ?)");
     put.bind_text(0, source.argument).bind_text(1, ready.again ? "" : stamp).run();
     const std::int64_t id = database_.last_id();
     for (const ReadyPart& part : ready.parts) {
+      // Names have to differ: the first one stays.
       if (const std::string other = source_that_has(part.entry.name); !other.empty()) {
         ready.left_out.push_back({part.entry.name, fmt::format("{}: a part of this name is there from {}: names have "
                                                                "to differ; give the file another one",
@@ -273,6 +308,7 @@ class CatalogWriter {
     for (std::string& note : ready.notes) report.notes.push_back(std::move(note));
   }
 
+  /// Takes parts out by name, all of them or none. Throws InputError: a name that is not there.
   std::size_t remove(const std::vector<std::string>& names) {
     Transaction all(database_);
     for (const std::string& name : names) {
@@ -286,7 +322,9 @@ class CatalogWriter {
       }
       const std::int64_t id = asked.whole(0);
       const std::int64_t source = asked.whole(1);
+      // Sums are modulo 2^64: what was added is taken off.
       sum_change_ -= static_cast<std::uint64_t>(asked.whole(2));
+      // What refers to the part goes first.
       database_.prepare("DELETE FROM shapes WHERE part = ?").bind(0, id).run();
       database_.prepare("DELETE FROM parts WHERE id = ?").bind(0, id).run();
       // So that a build takes it in again.
@@ -305,18 +343,20 @@ class CatalogWriter {
   const Database& database() const { return database_; }
 
  private:
+  /// The unit is part of the catalog's checksum: its share is exchanged.
   void set_unit(const std::string& unit) {
     sum_change_ += sum_of_unit(unit) - sum_of_unit(unit_);
     set_fact(database_, "unit", unit);
     unit_ = unit;
   }
 
+  /// Whether this source is in the catalog as it is now.
   bool is_there(const std::string& argument, const std::string& stamp) const {
     Statement asked = database_.prepare("SELECT 1 FROM sources WHERE argument = ? AND stamp = ?");
     return asked.bind_text(0, argument).bind_text(1, stamp).step();
   }
 
-  /// Whether there was anything.
+  /// Takes out all that is there of a source; its parts leave the catalog's checksum. Whether there was anything.
   bool forget(const std::string& argument) {
     Statement asked = database_.prepare("SELECT id FROM sources WHERE argument = ?");
     asked.bind_text(0, argument);
@@ -325,6 +365,7 @@ class CatalogWriter {
     Statement parts = database_.prepare("SELECT checksum FROM parts WHERE source = ?");
     parts.bind(0, id);
     while (parts.step()) sum_change_ -= static_cast<std::uint64_t>(parts.whole(0));
+    // In this order: what refers to a row goes before it.
     for (const char* const sql : {"DELETE FROM shapes WHERE part IN (SELECT id FROM parts WHERE source = ?)",
                                   "DELETE FROM parts WHERE source = ?", "DELETE FROM left_out WHERE source = ?",
                                   "DELETE FROM sources WHERE id = ?"}) {
@@ -333,6 +374,7 @@ class CatalogWriter {
     return true;
   }
 
+  /// The source of a part of this name; empty: there is none.
   std::string source_that_has(const std::string& name) const {
     Statement asked =
         database_.prepare("SELECT argument FROM sources JOIN parts ON parts.source = sources.id WHERE parts.name = ?");
@@ -340,7 +382,7 @@ class CatalogWriter {
     return asked.step() ? std::string(asked.bytes(0)) : std::string();
   }
 
-  /// The row's checksum.
+  /// Writes a row of `parts`, and returns its checksum, which is written in a second step: the id belongs to it.
   std::uint64_t write_row(const ReadyPart& part, std::int64_t source) {
     Statement row = database_.prepare(
         "INSERT INTO parts (name, source, perimeter, period_turn, most_curvature, closed, reversed, measured, "
@@ -359,6 +401,8 @@ class CatalogWriter {
     return sum;
   }
 
+  /// Writes a part: what is looked through as a whole in `parts`, the rest in `shapes`. Both sums of `shapes` begin
+  /// with that of `parts`.
   void write_part(const ReadyPart& part, std::int64_t source) {
     const std::uint64_t sum = write_row(part, source);
     const std::int64_t id = database_.last_id();
@@ -372,7 +416,7 @@ class CatalogWriter {
   }
 
   Database database_;
-  std::string unit_;
+  std::string unit_;              // the catalog's; empty: not known
   std::uint64_t sum_change_ = 0;  // of the whole catalog's, since the last commit
 };
 
@@ -384,12 +428,14 @@ namespace rollfix {
 
 BuildReport build_catalog(const std::string& path, const std::vector<CatalogSource>& sources,
                           const BuildOptions& options) {
+  // First, so that it ends last: after the file is closed.
   const catalog::NoEmptyFile none(path);
   catalog::CatalogWriter writer(path, options.load.points.unit);
   const std::string unit = writer.unit();  // which may be set while parts are read
   BuildReport report;
   const std::unordered_map<std::string, std::string> there = writer.stamps();
   std::vector<std::size_t> wanted;
+  // What has the stamp of before is not read again.
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const auto found = there.find(sources[k].argument);
     if (found != there.end() && found->second == catalog::stamp_of(sources[k], options)) {
@@ -401,6 +447,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
 
   catalog::Waiting waiting;
   BuildProgress progress{sources.size(), report.unchanged, writer.parts()};
+  // All that is ready in order, in one transaction. Progress counts it only after the commit.
   const auto write_ready = [&] {
     std::vector<std::pair<std::size_t, catalog::ReadySource>> ready = waiting.take();
     if (!ready.empty()) {
@@ -409,6 +456,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
         writer.write(sources[wanted[k]], options, source, report);
       }
       writer.commit(all);
+      // Committed: from here on it is safe in the file.
       progress.done += ready.size();
       progress.parts = writer.parts();
     }
@@ -416,8 +464,10 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
   };
   const auto go_on = [&](std::size_t /*done*/) {
     try {
+      // An error here ends the build: threads that wait for room are set free first.
       report.stopped = !write_ready();
     } catch (...) {
+      // Threads may wait for room: without this they would never end.
       waiting.close();
       throw;
     }
@@ -432,6 +482,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
         return;
     }
   });
+  // What became ready after the last call of go_on.
   if (!report.stopped) {
     crew.require_done();
     write_ready();
@@ -440,6 +491,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
 }
 
 std::size_t remove_from_catalog(const std::string& path, const std::vector<std::string>& names) {
+  // A writer would make an empty catalog of it.
   if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: there is no such catalog", path));
   return catalog::CatalogWriter(path, "").remove(names);
 }

@@ -12,15 +12,22 @@
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
 
+// SQLite with errors as InputError, and what is in a catalog: its tables and checksums.
+// Follows docs/identify.md, "The catalog", which lists the tables. A checksum is FNV-1a of numbers, lengths of texts,
+// and texts. Those of all parts and of the unit add up, modulo 2^64, to that of the catalog: a part can be added or
+// taken out without reading the others.
 namespace rollfix::catalog {
 namespace {
 
 // Another program that writes is waited for so long.
 constexpr int kPatienceMilliseconds = 60000;
 
+/// Throws InputError for a code of SQLite, with the cure where there is one.
 [[noreturn]] void fail(const std::string& path, sqlite3* database, int code) {
+  // Without a database only the code says what it was.
   const std::string why = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
   if (code == SQLITE_NOTADB) throw InputError(fmt::format("{}: is not a catalog: expected an SQLite file", path));
+  // A reader that may not write can't roll back what a build that was killed has left.
   if (code == SQLITE_READONLY) {
     throw InputError(fmt::format(
         "{}: was left half written by a build that was stopped, and may not be written here: run that build "
@@ -38,11 +45,13 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_fi
 Statement::Statement(sqlite3* database, sqlite3_stmt* statement, std::string path)
     : database_(database), statement_(statement), path_(std::move(path)) {}
 
+/// Throws InputError unless the code is that of success.
 void Statement::check(int code) const {
   if (code != SQLITE_OK) fail(path_, database_, code);
 }
 
 Statement& Statement::bind(int parameter, std::int64_t value) {
+  // SQLite counts parameters from 1.
   check(sqlite3_bind_int64(statement_.get(), parameter + 1, value));
   return *this;
 }
@@ -62,14 +71,17 @@ Statement& Statement::bind_bytes(int parameter, std::string_view bytes) {
   return *this;
 }
 
+/// SQLite may wait here for another program that writes, up to kPatienceMilliseconds.
 bool Statement::step() {
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
+  // Neither a row nor the end.
   if (code != SQLITE_DONE) fail(path_, database_, code);
   return false;
 }
 
 void Statement::run() {
+  // Rows that it gives are passed over.
   while (step()) {
   }
   reset();
@@ -82,12 +94,14 @@ std::int64_t Statement::whole(int column) const { return sqlite3_column_int64(st
 double Statement::number(int column) const { return sqlite3_column_double(statement_.get(), column); }
 
 std::string_view Statement::bytes(int column) const {
+  // The data before their length: SQLite asks for this order.
   const auto* const data = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
+/// Opened without SQLite's own mutex: who shares it between threads has to lock it.
 Database::Database(const std::string& path, Access access) : path_(path) {
   if (access == Access::read && !std::filesystem::exists(path)) {
     throw InputError(fmt::format("{}: there is no such file; rollfix catalog build makes one", path));
@@ -98,6 +112,7 @@ Database::Database(const std::string& path, Access access) : path_(path) {
   sqlite3* opened = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   database_.reset(opened);
+  // A handle that failed to open has to be closed as well: it is owned by now.
   if (code != SQLITE_OK) fail(path, opened, code);
   sqlite3_extended_result_codes(opened, 0);
   sqlite3_busy_timeout(opened, kPatienceMilliseconds);
@@ -105,6 +120,7 @@ Database::Database(const std::string& path, Access access) : path_(path) {
   run("PRAGMA cell_size_check = ON; PRAGMA trusted_schema = OFF");  // the file may be damaged, or a stranger's
 }
 
+/// Compiled once, to be run again and again.
 Statement Database::prepare(const std::string& sql) const {
   sqlite3_stmt* statement = nullptr;
   const int code = sqlite3_prepare_v2(database_.get(), sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr);
@@ -119,7 +135,9 @@ void Database::run(const std::string& sql) const {
 
 std::int64_t Database::last_id() const { return sqlite3_last_insert_rowid(database_.get()); }
 
+/// Rolled back unless it was committed, as where an exception passes.
 Transaction::~Transaction() {
+  // Committed: nothing to undo.
   if (!is_open_) return;
   try {
     database_.run("ROLLBACK");
@@ -128,6 +146,7 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
+  // If this throws it is still open: the destructor rolls back.
   database_.run("COMMIT");
   is_open_ = false;
 }
@@ -137,6 +156,7 @@ namespace {
 /// Numbers, then texts with their lengths before them, so that no byte can move from one to the next. In one go: cells
 /// end with a checksum of their own, and the sum of bytes with their sum is the same whatever they are.
 std::uint64_t sum_of(ByteWriter numbers, std::initializer_list<std::string_view> columns) {
+  // First all lengths, then all texts.
   for (const std::string_view column : columns) numbers.whole(column.size());
   std::string bytes = numbers.bytes();
   for (const std::string_view column : columns) bytes.append(column);
@@ -147,6 +167,7 @@ std::uint64_t sum_of(ByteWriter numbers, std::initializer_list<std::string_view>
 
 std::uint64_t sum_of(const PartRow& row) {
   ByteWriter numbers;
+  // All columns but the checksum.
   for (const std::int64_t whole : {row.id, row.source, row.symmetry, std::int64_t{row.closed},
                                    std::int64_t{row.reversed}, std::int64_t{row.measured}}) {
     numbers.whole(static_cast<std::uint64_t>(whole));
@@ -157,6 +178,7 @@ std::uint64_t sum_of(const PartRow& row) {
 
 std::uint64_t sum_of(const ShapeRow& row, std::uint64_t part) {
   ByteWriter numbers;
+  // The part's own sum first: the same bytes beside another part have another sum.
   numbers.whole(part);
   return sum_of(numbers, {row.outline, row.numbers});
 }
@@ -209,6 +231,7 @@ CREATE INDEX left_out_by_source ON left_out (source);
 
 /// The tables as they were made: views, triggers and other columns would answer in their place.
 void require_own_tables(const Database& database) {
+  // A view could answer in place of a table, a trigger change what is written.
   Statement strange = database.prepare("SELECT name FROM sqlite_master WHERE type NOT IN ('table', 'index') LIMIT 1");
   if (strange.step()) {
     throw InputError(
@@ -216,9 +239,11 @@ void require_own_tables(const Database& database) {
                     "sources",
                     database.path(), strange.bytes(0)));
   }
+  // The tables as this program makes them, to compare with: by their text.
   const Database made(":memory:", Database::Access::write);
   made.run(kTables);
   Statement expected = made.prepare("SELECT name, sql FROM sqlite_master WHERE type = 'table' AND sql IS NOT NULL");
+  // Each table by name and text.
   while (expected.step()) {
     const std::string name(expected.bytes(0));
     Statement found = database.prepare("SELECT 1 FROM sqlite_master WHERE name = ? AND type = 'table' AND sql = ?");
@@ -230,13 +255,16 @@ void require_own_tables(const Database& database) {
   }
 }
 
+/// Whether anything was made in the file.
 bool has_tables(const Database& database) { return database.prepare("SELECT 1 FROM sqlite_master LIMIT 1").step(); }
 
 }  // namespace
 
 void make_tables(const Database& database) {
   Transaction all(database);  // of two builds of one new file one makes them
+  // Rolled back at the end: nothing was changed.
   if (has_tables(database)) return require_catalog(database);
+  // A new file: tables, version and the sum of a catalog without parts.
   database.run(kTables);
   set_fact(database, "schema", kCatalogSchema);
   set_whole_sum(database, sum_of_unit(""));
@@ -244,28 +272,34 @@ void make_tables(const Database& database) {
 }
 
 void require_catalog(const Database& database) {
+  // Whether it is a catalog at all, of this version, and with nothing else in its place.
   Statement tables = database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'facts'");
   if (!tables.step()) {
     throw InputError(fmt::format("{}: is not a catalog; rollfix catalog build makes one", database.path()));
   }
+  // A version that is not this one is not read: its tables may be others.
   const std::string schema = fact(database, "schema");
   if (schema == kCatalogSchema) return require_own_tables(database);
   throw InputError(fmt::format("{}: is a catalog of version '{}', expected '{}': build it again from its sources",
                                database.path(), schema, kCatalogSchema));
 }
 
+/// Facts are texts; a name has one value.
 std::string fact(const Database& database, const std::string& name) {
   Statement asked = database.prepare("SELECT value FROM facts WHERE name = ?");
   asked.bind_text(0, name);
   return asked.step() ? std::string(asked.bytes(0)) : std::string();
 }
 
+/// In place of what the name had before.
 void set_fact(const Database& database, const std::string& name, const std::string& value) {
   Statement put = database.prepare("INSERT OR REPLACE INTO facts VALUES (?, ?)");
   put.bind_text(0, name).bind_text(1, value).run();
 }
 
+/// Stored as 16 hexadecimal digits. No number, as in a damaged file, is 0.
 std::uint64_t whole_sum(const Database& database) {
+  // Read anew each time: another build may have changed it.
   const std::string text = fact(database, "checksum");
   std::uint64_t sum = 0;
   std::from_chars(text.data(), text.data() + text.size(), sum, 16);

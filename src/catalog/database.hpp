@@ -16,6 +16,7 @@ namespace rollfix::catalog {
 /// One SQL statement, to be run once or again and again. Columns and parameters are counted from 0.
 class Statement {
  public:
+  /// The value of a parameter; texts and bytes are copied. All of these throw InputError: what SQLite says.
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, double value);
   Statement& bind_text(int parameter, std::string_view text);
@@ -25,8 +26,9 @@ class Statement {
   bool step();
   /// Runs it to its end, and makes it ready to be run again.
   void run();
-  void reset();
+  void reset();  // to be run again; what is bound stays
 
+  // Of the row that step() found:
   std::int64_t whole(int column) const;
   double number(int column) const;
   std::string_view bytes(int column) const;  // of a text as well; until the next step
@@ -39,20 +41,21 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
-  sqlite3* database_;
+  sqlite3* database_;  // of which it is; has to outlive it
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-  std::string path_;
+  std::string path_;  // of the file, for messages
 };
 
 /// An SQLite file. Throws InputError: what SQLite says, with the file's name.
 class Database {
  public:
   enum class Access { read, write };
+  /// For writing the file is made where there is none.
   Database(const std::string& path, Access access);
 
-  Statement prepare(const std::string& sql) const;
-  void run(const std::string& sql) const;
-  std::int64_t last_id() const;
+  Statement prepare(const std::string& sql) const;  // one statement
+  void run(const std::string& sql) const;           // any number of them, without results
+  std::int64_t last_id() const;                     // of the row that was inserted last
   const std::string& path() const { return path_; }
 
  private:
@@ -77,34 +80,35 @@ class Transaction {
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
 
+  /// Throws InputError: then nothing is done.
   void commit();
 
  private:
   const Database& database_;
-  bool is_open_ = true;
+  bool is_open_ = true;  // neither committed nor rolled back
   std::optional<SignalsWait> signals_wait_;
 };
 
 /// A row of `parts`.
 struct PartRow {
-  std::int64_t id = 0;
-  std::string_view name;
-  std::int64_t source = 0;
-  double perimeter = 0;
-  double period_turn = 0;
-  double most_curvature = 0;
+  std::int64_t id = 0;        // never used again for another part
+  std::string_view name;      // no two have the same
+  std::int64_t source = 0;    // id in `sources`
+  double perimeter = 0;       // in the catalog's unit
+  double period_turn = 0;     // turn of a lap, radians
+  double most_curvature = 0;  // the largest |kappa|
   bool closed = false;
-  bool reversed = false;
-  bool measured = false;
-  std::int64_t symmetry = 0;
-  double count = 0;
-  std::string_view profile;
+  bool reversed = false;      // given clockwise
+  bool measured = false;      // the outline is not exact, as of a taught part
+  std::int64_t symmetry = 0;  // 0: a circle
+  double count = 0;           // so many of it
+  std::string_view profile;   // Theta on 64 cells: bytes_of(Profile)
 };
 
 /// A row of `shapes` without its fine cells.
 struct ShapeRow {
-  std::string_view outline;
-  std::string_view numbers;
+  std::string_view outline;  // JSON: its curves by kind
+  std::string_view numbers;  // of the curves, little-endian doubles
 };
 
 /// The checksum of all columns.
@@ -116,6 +120,7 @@ std::uint64_t sum_of_fine(std::string_view fine, std::uint64_t part);
 /// Of the whole catalog: its parts' checksums are added to this one, so that none goes missing.
 std::uint64_t sum_of_unit(const std::string& unit);
 
+/// A catalog of another version is refused: it is built again from its sources.
 inline constexpr const char* kCatalogSchema = "rollfix/catalog/4";
 
 /// Makes the tables where the file is new. Throws InputError: a file with other tables, or of another version.

@@ -3,34 +3,42 @@
 #include "documents/documents.hpp"
 #include "rollfix/identify.hpp"
 
+// JSON documents of catalogs. docs/json.md lists the fields, under "identify" and "advise".
 namespace rollfix {
 namespace {
 
 constexpr const char* kSchema = "rollfix/identify/1";
 
+/// As text, on one line or indented.
 std::string formatted(const Json& document, Layout layout) {
   return layout == Layout::line ? json_line(document) : json_text(document);
 }
 
+/// The catalog's file, how many parts were asked, and how many of them bounds left to be searched.
 Json catalog_json(const Catalog& catalog, std::size_t asked, std::size_t searched) {
   return {{"file", catalog.path()}, {"parts", asked}, {"searched", searched}};
 }
+/// Both passes count, the one with more noise as well.
 Json catalog_json(const Catalog& catalog, const Identified& found) {
   return catalog_json(catalog, found.asked, found.searched + found.searched_widely);
 }
 
+/// Names of parts, given by their places in the catalog.
 Json names_json(const Catalog& catalog, const std::vector<std::size_t>& parts) {
   Json names = Json::array();
   for (const std::size_t part : parts) names.push_back(catalog.entry(part).name);
   return names;
 }
 
+/// Parts that can't have been rolled on so, each with its reason.
 Json refused_json(const Catalog& catalog, const std::vector<PartRefused>& refused) {
   Json list = Json::array();
   for (const PartRefused& one : refused) list.push_back({{"name", catalog.entry(one.part).name}, {"why", one.why}});
   return list;
 }
 
+/// One part that remains; `placements`: places of a roll, or poses of touches. A probability that is not a number is
+/// null.
 Json part_json(const Catalog& catalog, std::size_t part, double probability, const std::string& verdict,
                const std::vector<std::size_t>& congruent, Json placements) {
   const CatalogEntry& entry = catalog.entry(part);
@@ -43,6 +51,7 @@ Json part_json(const Catalog& catalog, std::size_t part, double probability, con
           {"placements", std::move(placements)}};
 }
 
+/// Of a roll: its placements, as the documents of `locate` have them.
 Json part_json(const Catalog& catalog, const PartFound& part) {
   Json placements = Json::array();
   for (const Placement& placement : part.answer.placements)
@@ -75,6 +84,7 @@ std::string format_identified(const Catalog& catalog, const IdentifiedByTouches&
     parts.push_back(part_json(catalog, one.part, one.probability, one.answer.verdict_text(), one.congruent,
                               pose_sets_json(one.answer)));
   }
+  // Rolls with the lines of their files; simulated rows have none. Each touch is one sample, and so is each row.
   Json rolls = Json::array();
   std::size_t samples = found.touches.size();
   for (const RollGiven& roll : found.rolls) {
@@ -104,6 +114,7 @@ std::string format_next_roll(const Catalog& catalog, const Identified& found, co
                              Layout layout) {
   Json hypotheses = Json::array();
   for (const NextRollOfParts::Place& place : next.places) {
+    // `turn` is what the place would measure on the advised roll; without one it is null.
     hypotheses.push_back({{"part", catalog.entry(found.parts[place.part].weight.part).name},
                           {"placement", place.hypothesis.label},
                           {"contact", per_finger_json(place.hypothesis.place)},

@@ -18,9 +18,15 @@
 #include "rollfix/units.hpp"
 #include "text/text.hpp"
 
+// From text to logs: lines to rows (RowReader), rows to rolls (LogMaker), and what is done with whole logs.
+//   roll            rows between two losses of contact, each a Log of its own
+//   splitting       contact that is lost and found again is refused (`read_log`), or begins another roll (`read_rolls`)
+//   later roll      any but the first: lengths and increments are measured from its own first row
+// Follows docs/rolling.md, "Logs".
 namespace rollfix {
 namespace {
 
+/// Throws InputError: not as many values as x has, or one that is not finite.
 void require_column(const std::vector<double>& column, const char* what, std::size_t rows, const std::string& name) {
   if (column.size() != rows) {
     throw InputError(fmt::format("{}: expected {} values of {}, as of x, found {}", name, rows, what, column.size()));
@@ -33,6 +39,7 @@ void require_column(const std::vector<double>& column, const char* what, std::si
 
 }  // namespace
 
+/// Checks columns of numbers as a reader checks a file's.
 PinLog pin_log(std::string name, std::vector<double> x, std::vector<double> y, std::vector<double> psi,
                std::vector<double> time) {
   const std::size_t rows = x.size();
@@ -41,6 +48,7 @@ PinLog pin_log(std::string name, std::vector<double> x, std::vector<double> y, s
   require_column(y, "y", rows, name);
   if (!psi.empty()) require_column(psi, "psi", rows, name);
   if (!time.empty()) require_column(time, "time", rows, name);
+  // Strictly growing, as of a file.
   for (std::size_t k = 1; k < time.size(); ++k) {
     if (time[k] > time[k - 1]) continue;
     throw InputError(fmt::format("{}: row {}: time is {}, expected more than {} in the row before: time must grow",
@@ -50,6 +58,7 @@ PinLog pin_log(std::string name, std::vector<double> x, std::vector<double> y, s
   log.rows.name = std::move(name);
   log.rows.time = std::move(time);
   FingerRows& one = log.rows.fingers.front();
+  // Where the part touches the wheel is not known: a Log counts its rows by u.
   one.u.assign(rows, 0);
   one.psi = std::move(psi);
   one.x = std::move(x);
@@ -73,14 +82,20 @@ class LogMaker {
   LogMaker(const RowReader& reader, Splitting splitting, bool single_rows, bool of_pin)
       : reader_(reader), splitting_(splitting), single_rows_(single_rows), of_pin_(of_pin) {}
 
+  /// The next row. Invariant: `roll_` has the rows since contact was found last; `lost_line_` is not 0 from where it
+  /// was lost until it is found again.
   void take(RowKind kind, const LogRow& row) {
+    // A comment, a blank line, a header.
     if (kind == RowKind::none) return;
     any_row_ = true;
     if (kind == RowKind::off) {
+      // Kept for `paired`: rows may be missing at either end of the other finger's log.
       any_without_contact_ = true;
+      // The first row without contact behind a roll; before the first contact nothing is lost.
       if (roll_.rows() > 0 && lost_line_ == 0) lost_line_ = row.line;
       return;
     }
+    // In contact again: another roll, or an error.
     if (lost_line_ != 0) find_again(row.line);
     if (roll_.rows() == 0) start_roll();
     add(row);
@@ -92,9 +107,12 @@ class LogMaker {
       throw InputError(fmt::format("{}: is empty, expected a log with a header such as '{}'", reader_.name(),
                                    of_pin_ ? "time,x,y" : "time,u,psi"));
     }
+    // Counted before end_roll() empties it, for the message.
     const std::size_t last_rows = roll_.rows();
     end_roll();
+    // No roll was long enough: the message says how many rows there were, and why others were left out.
     if (rolls_.empty()) {
+      // There were rows, but in none of them did every finger touch.
       const bool none_in_contact = last_rows == 0 && any_row_;
       throw InputError(fmt::format(
           "{}: holds {} row{} of a roll{}, expected at least {}{}", reader_.name(), last_rows,
@@ -107,6 +125,7 @@ class LogMaker {
     for (Log& roll : rolls_) {
       roll.skipped = skipped;
       roll.contact_was_off = any_without_contact_;
+      // One roll alone keeps the log's name.
       if (rolls_.size() == 1) break;
       const std::vector<std::size_t>& line = roll.fingers[0].line;
       roll.name += fmt::format(", lines {} to {}", line.front(), line.back());
@@ -115,6 +134,7 @@ class LogMaker {
   }
 
  private:
+  /// An empty roll with what the header says of its columns.
   void start_roll() {
     roll_.name = reader_.name();
     roll_.kind = reader_.kind();
@@ -128,10 +148,13 @@ class LogMaker {
       roll_.fingers[k].u_wrapped = reader_.columns()[k].u_wrapped;
       roll_.fingers[k].psi_wrapped = reader_.columns()[k].psi_wrapped;
     }
+    // Digits and sums begin anew with each roll.
     roundings_.assign(roll_.fingers.size(), FingerRounding{});
     odometers_.assign(roll_.fingers.size(), Odometer(reader_.kind(), is_later_roll_));
   }
 
+  /// Appends a row in which all fingers touch: columns as they are written, lengths and turns as sums from the roll's
+  /// start.
   void add(const LogRow& row) {
     if (row.time) roll_.time.push_back(*row.time);
     for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
@@ -139,12 +162,15 @@ class LogMaker {
       const FingerCells& cells = row.fingers[k];
       roundings_[k].place.add(cells.place);
       roundings_[k].angle.add(cells.angle);
+      // By all digits of the roll so far.
       finger.place_rounding = roundings_[k].place.value();
       finger.angle_rounding = roundings_[k].angle.value();
       if (roll_.kind == LogKind::contact) {
         finger.u.push_back(cells.place.value);
+        // A wheel's log without an encoder has none.
         if (reader_.columns()[k].has(Column::psi)) finger.psi.push_back(cells.angle.value);
       } else {
+        // Measured from the first contact, counters and increments alike.
         const Reading reading = odometers_[k].add(cells);
         finger.length.push_back(reading.length[0]);
         finger.turn.push_back(reading.turn);
@@ -164,11 +190,13 @@ class LogMaker {
 
   /// Keeps the roll, unless it is too short to be one.
   void end_roll() {
+    // A finger that touched for one row and went away: a touch, where these are asked for.
     const bool is_touch = single_rows_ && reader_.kind() == LogKind::contact && roll_.rows() == 1;
     if (is_touch || roll_.rows() >= least_rows(reader_.kind(), is_later_roll_)) rolls_.push_back(std::move(roll_));
     roll_ = Log{};
   }
 
+  /// Contact is back, in this line: another roll, or an error. Throws InputError.
   void find_again(std::size_t line) {
     if (splitting_ == Splitting::refused) {
       throw InputError(
@@ -183,16 +211,16 @@ class LogMaker {
 
   const RowReader& reader_;
   Splitting splitting_;
-  bool single_rows_;  // are rolls
+  bool single_rows_;  // contact for a single row is a roll
   bool of_pin_;       // of a wheel
   Log roll_;          // that goes on
   std::vector<Odometer> odometers_;
   std::vector<FingerRounding> roundings_;  // of each finger's columns
   std::vector<Log> rolls_;
-  std::size_t lost_line_ = 0;
-  bool is_later_roll_ = false;
-  bool any_row_ = false;
-  bool any_without_contact_ = false;
+  std::size_t lost_line_ = 0;         // where contact was lost behind the roll that goes on; 0: it was not
+  bool is_later_roll_ = false;        // that roll is not the first
+  bool any_row_ = false;              // there was a row at all
+  bool any_without_contact_ = false;  // and one in which not every finger touched
 };
 
 /// Whether a row holds the units of a header above it, and nothing else.
@@ -207,6 +235,7 @@ bool holds_units(const std::vector<std::string_view>& cells) {
 constexpr int kRowsAhead = 1000;
 
 /// Whether a row can be read further on: else leaving rows out leaves nothing.
+/// Reads on, which is no loss: an error follows either way.
 bool any_row_can_be_read(RowReader& reader, LogLines& lines) {
   LogRow row;
   std::string_view line;
@@ -232,6 +261,7 @@ class RowsInLines {
   bool next(RowKind& kind, LogRow& row) {
     std::string_view line;
     while (lines_.next(line)) {
+      // A row that can't be read leaves the reader as it was: the next one is read as if it had not been there.
       try {
         kind = reader_.read(line, row);
       } catch (const InputError& error) {
@@ -247,8 +277,11 @@ class RowsInLines {
   }
 
  private:
+  /// What becomes of a row that can't be read: it is left out where that was asked for, else the error gets a cure.
+  /// Called while the error is handled: `throw` passes it on.
   void leave_out(const InputError& error) {
     if (!reader_.knows_columns()) throw;  // of the header
+    // A second header line with units under the names is a usual mistake: it gets its own cure.
     if (!any_ && skipped_.empty() && holds_units(reader_.row().cells)) {
       throw InputError(
           fmt::format("{}:{}: '{}' are units, expected them behind the names of the columns, as in 'u [deg]', "
@@ -257,6 +290,7 @@ class RowsInLines {
     }
     if (skips_) {
       skipped_.emplace_back(error.what());
+      // Advised only where it leaves something.
     } else if (any_ || any_row_can_be_read(reader_, lines_)) {
       throw InputError(fmt::format("{}; `skip_bad` leaves such rows out", error.what()));
     } else {
@@ -265,13 +299,13 @@ class RowsInLines {
   }
 
   LogLines& lines_;
-  bool skips_;
+  bool skips_;  // rows that can't be read are left out
   RowReader reader_;
-  bool any_ = false;
+  bool any_ = false;                  // a row was read
   std::vector<std::string> skipped_;  // why
 };
 
-/// Runs a stream of lines to its end.
+/// All rolls of a log, read to its end. A note of the header goes with each of them.
 std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
   RowsInLines rows(lines, options, of_pin);
   LogMaker maker(rows.reader(), splitting, options.single_rows, of_pin);
@@ -286,12 +320,14 @@ std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions
   return rolls;
 }
 
+/// The rolls in a text; `name` is for messages.
 std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting,
                                const LogOptions& options) {
   LogLines lines(text, name);
   return rolls_in(lines, splitting, options);
 }
 
+/// Likewise of a file; "-" is standard input, of which the beginning may have been looked at before.
 std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, const LogOptions& options) {
   const OpenFile file = open_text(path);
   const bool is_input = path == "-";
@@ -313,11 +349,13 @@ PinLog read_pin_log(const std::string& path, const LogOptions& options) {
   return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
 }
 
+/// Columns whose names end in this finger's suffix lose it, those of the other finger go, all others hold for both.
 LogOptions options_for_finger(const LogOptions& options, std::size_t finger) {
   LogOptions result = options;
   result.columns.clear();
   for (ColumnSource source : options.columns) {
     const std::string end = source.column.size() > 2 ? source.column.substr(source.column.size() - 2) : "";
+    // Of the other file.
     if (end == kFingerSuffixes[1 - finger]) continue;
     if (end == kFingerSuffixes[finger]) source.column.resize(source.column.size() - 2);
     result.columns.push_back(source);
@@ -337,6 +375,7 @@ Log read_log(const std::string& path_a, const std::string& path_b, const LogOpti
   if (path_a == "-" && path_b == "-") {
     throw InputError("the logs of both fingers can't come from standard input: give one of them as a file");
   }
+  // Each file is a log of one finger.
   Log a = read_log(path_a, options_for_finger(options, 0));  // first, so that its errors come first
   return paired(std::move(a), read_log(path_b, options_for_finger(options, 1)));
 }
@@ -349,12 +388,15 @@ std::vector<Log> read_rolls(const std::string& path, const LogOptions& options) 
   return rolls_of_file(path, Splitting::into_rolls, options);
 }
 
+/// All columns of lengths are converted: u where it is one, and roundings in that unit.
 Log in_unit(Log log, const std::string& unit, const std::vector<Finger>& fingers) {
+  // Nothing to convert, or one unit is not known.
   if (log.unit.empty() || unit.empty() || log.unit == unit) return log;
   const Conversion convert = length_conversion(log.unit, unit, log.name);
   for (std::size_t k = 0; k < log.fingers.size(); ++k) {
     FingerRows& rows = log.fingers[k];
     const Finger* const finger = finger_of(fingers, k);
+    // u of a disk is an angle, of any other finger a length. Without a finger the header may say it.
     const bool is_length = finger != nullptr ? !finger->is_disk() : rows.u_dimension == Dimension::length;
     std::vector<std::vector<double>*> lengths{&rows.length, &rows.distance, &rows.x, &rows.y};
     if (is_length) lengths.push_back(&rows.u);
@@ -362,6 +404,7 @@ Log in_unit(Log log, const std::string& unit, const std::vector<Finger>& fingers
       for (double& value : *column) value = convert(value);
     }
     if (is_length) rows.u_period = convert(rows.u_period);
+    // The rounding is in the unit of the column that it is of.
     if (is_length || log.kind != LogKind::contact) rows.place_rounding = convert(rows.place_rounding);
   }
   log.unit = unit;

@@ -41,6 +41,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 void require_clear(const Log& log, std::size_t which, const Finger& finger) {
   const FingerRows& rows = log.fingers[which];
+  // Names the row and both values; the cure is to say whether the column is wrapped.
   const auto require = [&](Column column, const std::vector<double>& angles, const std::optional<std::size_t>& row) {
     if (!row) return;
     throw InputError(fmt::format(
@@ -63,7 +64,9 @@ class FingerCourse {
         rows_(log.fingers[which]),
         finger_(finger_of(fingers, which)),
         within_(reach_of_corners(rows_.place_rounding, noise)) {
+    // Lengths and turns need no finger and are never wrapped.
     if (kind_ != LogKind::contact) return;
+    // u of a disk has the period 2 pi, on a closed outline its length, on an open one none.
     u_ = unwrapped_as_said(rows_.u, rows_.place_rounding, finger_->period(), rows_.u_wrapped);
     psi_ = unwrapped_as_said(rows_.psi, rows_.angle_rounding, kTurn, rows_.psi_wrapped);
   }
@@ -77,10 +80,10 @@ class FingerCourse {
  private:
   LogKind kind_;
   const FingerRows& rows_;
-  const Finger* finger_;
-  double within_;
-  std::vector<double> u_;  // unwrapped
-  std::vector<double> psi_;
+  const Finger* finger_;     // none where it is not known
+  double within_;            // so near to a corner of the finger a contact may be on it, length
+  std::vector<double> u_;    // unwrapped
+  std::vector<double> psi_;  // unwrapped
 };
 
 /// Every finger's, which are readings together. Throws InputError: u and psi without a finger.
@@ -88,6 +91,7 @@ class Courses {
  public:
   Courses(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
     require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
+    // Before anything is measured: units and wraps have to be clear.
     for (std::size_t k = 0; k < log.fingers.size(); ++k) {
       require_unit_of_u(log.fingers[k].u_dimension, finger_of(fingers, k), log.name);
       if (log.kind == LogKind::contact) require_clear(log, k, *finger_of(fingers, k));
@@ -95,10 +99,12 @@ class Courses {
     }
   }
 
+  /// Each finger's own reading of a row: theta is what this finger saw the tangent turn.
   PerFinger<Reading> each(std::size_t row) const {
     if (courses_.size() == 1) return courses_[0].at(row);
     return {courses_[0].at(row), courses_[1].at(row)};
   }
+  /// The row as one reading: of two fingers theta is the difference of both turns, eqs. (7) to (9).
   Reading at(std::size_t row) const { return together(each(row)); }
 
  private:
@@ -119,6 +125,7 @@ bool looks_like_degrees(const std::vector<double>& angles, std::size_t row) {
 /// and, most of all, from row to row.
 bool goes_in_degrees(const std::vector<double>& angles, std::size_t row) {
   constexpr double kLeastStep = 1;
+  // A step of degrees read as radians is 57 times too long.
   const auto is_long = [&](std::size_t k) {
     const double step = std::abs(angles[k] - angles[k - 1]);
     return step >= kLeastStep && step <= kTurnInDegrees;
@@ -135,16 +142,19 @@ std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Fin
   const Finger* const shape = finger_of(fingers, finger);
   const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[finger];
   const bool has_angle_u = shape != nullptr && shape->is_disk();
+  // If the roll goes on behind the jump, leaving the rows out is a cure as well.
   const bool comes_back = without_strays(log, part, fingers, noise).rows() < log.rows();
   std::string split =
       fmt::format("split the log there{}", comes_back ? ", or let stray rows pass with `robust` (and `noise`)" : "");
   if (log.kind != LogKind::contact) {
+    // A jump between half a turn and 360: a turn in degrees, read as radians.
     const double step = std::abs(rows.turn[row] - rows.turn[row - 1]);
     if (step < std::numbers::pi || step > kTurnInDegrees) return split;
     const char* const column = log.kind == LogKind::increments ? "dturn" : "turn";
     return fmt::format("{0}; if the turns are in degrees, that is written `columns` {1}{2}={1}{2}:deg", split, column,
                        suffix);
   }
+  // Degrees that wrap at 360 look like a jump of 360 radians.
   if (looks_like_degrees(rows.psi, row) || (has_angle_u && looks_like_degrees(rows.u, row))) {
     const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
     return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,
@@ -162,6 +172,7 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
                       const Noise& noise) {
   RollCheck check(part, log.kind, fingers, log.fingers.size(), noise);
   const std::size_t count = log.fingers.size();
+  // First every place on its finger, then every step.
   for (std::size_t k = 0; k < count && log.kind == LogKind::contact; ++k) {
     const FingerRows& rows = log.fingers[k];
     for (std::size_t row = 0; row < log.rows(); ++row) {
@@ -171,6 +182,7 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
   }
   PerFinger<std::size_t> line = PerFinger<std::size_t>::of(count);
   PerFinger<Reading> before = PerFinger<Reading>::of(count);
+  // Invariant: `before` has the readings of the row before this one; of row 0 the first contact, all 0.
   for (std::size_t row = 0; row < log.rows(); ++row) {
     PerFinger<Reading> now = courses.each(row);
     for (std::size_t k = 0; k < count; ++k) {
@@ -179,12 +191,14 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
       if (log.kind != LogKind::contact) now[k] = in_stored_direction(now[k], part);
     }
     const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
+    // The first jump ends it: the message has its rows, what is wrong, and what to type.
     if (const auto jump = check.jump(line, before, now, time)) {
       throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}{}{}",
                                    place_of(log, jump->finger, row), jump->why,
                                    cure_of_jump(log, part, fingers, noise, jump->finger, row),
                                    log.notes.empty() ? "" : "; ", fmt::join(log.notes, "; ")));
     }
+    // A file's angles are unwrapped as a whole: the row before stays as it was.
     before = now;
   }
 }
@@ -197,16 +211,21 @@ double reach_of(const std::vector<double>& time, std::size_t row) {
   return gap / 2;
 }
 
+/// The row whose time is nearest to an instant; of two as near the earlier one. O(log n), because times grow.
 std::size_t nearest_row(const std::vector<double>& time, double instant) {
+  // Between two rows the nearer one, before the first and behind the last those.
   const auto after = std::lower_bound(time.begin(), time.end(), instant);
+  // Before the first row.
   if (after == time.begin()) return 0;
   const auto row = static_cast<std::size_t>(after - time.begin());
   if (row == time.size()) return row - 1;
   return instant - time[row - 1] <= time[row] - instant ? row - 1 : row;
 }
 
+/// Throws InputError that names the rows on both sides of the instant, or the log's first and last time.
 [[noreturn]] void refuse_instant(const Log& log, double instant) {
   const auto after = std::upper_bound(log.time.begin(), log.time.end(), instant);
+  // Within the log two rows are named, outside of it its ends.
   const bool is_inside = after != log.time.begin() && after != log.time.end();
   const std::string found = is_inside ? fmt::format("whose nearest rows are at {} and {}", *(after - 1), *after)
                                       : fmt::format("which goes from {} to {}", log.time.front(), log.time.back());
@@ -217,6 +236,7 @@ std::size_t nearest_row(const std::vector<double>& time, double instant) {
 
 /// Throws InputError: the first contact, from which a reading is measured, is none itself.
 void require_reading(const Log& log, std::size_t row, double instant) {
+  // Only a log of u and psi has the first contact as a row.
   if (row > 0 || log.kind != LogKind::contact) return;
   throw InputError(
       fmt::format("{}: the instant {} means the row of the first contact, at {}, from which readings are measured: "
@@ -235,15 +255,20 @@ void require_another(const Log& log, const std::vector<std::size_t>& rows, std::
                                earlier == times[rows.size()] ? "" : "; the rows are farther apart than these"));
 }
 
+/// The rows that are read where no instants are asked for: the last one; of two fingers the middle one as well, because
+/// one reading of two leaves a curve of pairs.
 std::vector<std::size_t> usual_rows(const Log& log) {
   const std::size_t last = log.rows() - 1;
+  // The middle and the last row are far apart: their readings tell most.
   const std::size_t middle = last / 2;
   const std::size_t first_reading = log.kind == LogKind::contact ? 1 : 0;  // before it is the first contact
+  // One finger, or a log too short for two different readings.
   if (log.fingers.size() == 1 || middle < first_reading || middle == last) return {last};
   return {middle, last};
 }
 
-/// Of one finger's readings.
+/// How far half a unit of the last digits can have moved a reading of one finger, at worst: both of its rows; lengths
+/// and turns themselves; of increments every row so far, because they add up.
 Rounding rounding_of(const Log& log, const FingerRows& rows, const Finger* finger) {
   switch (log.kind) {
     case LogKind::contact:
@@ -260,12 +285,14 @@ Rounding rounding_of(const Log& log, const FingerRows& rows, const Finger* finge
 
 }  // namespace
 
+/// Checked one after the other, so that the message names the first instant that is wrong.
 std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& times) {
   if (times.empty()) return usual_rows(log);
   if (log.time.empty()) {
     throw InputError(fmt::format("{}: has no column 'time', so that instants of it can't be chosen", log.name));
   }
   std::vector<std::size_t> rows;
+  // Each instant means one row, near enough, other than the first contact and not meant before.
   for (const double instant : times) {
     if (!std::isfinite(instant)) refuse_instant(log, instant);
     const std::size_t row = nearest_row(log.time, instant);
@@ -284,6 +311,7 @@ std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>
   return result;
 }
 
+/// All rows are checked, whichever are asked for.
 std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times, const Noise& noise) {
   const Courses courses(log, fingers, noise);
@@ -302,6 +330,7 @@ double reach_of_corners(double place_rounding, const Noise& noise) {
   return std::max(2 * place_rounding, kSurelyOff * noise.contact);
 }
 
+/// u and psi of each row, unwrapped as the log says or as its rows show.
 std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger) {
   const std::vector<double> u = unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped);
   const std::vector<double> psi = unwrapped_as_said(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped);
@@ -314,6 +343,7 @@ std::vector<bool> rows_on_corners(const Log& log, const std::vector<Finger>& fin
   std::vector<bool> on_corners;
   for (std::size_t which = 0; which < log.fingers.size() && log.kind == LogKind::contact; ++which) {
     const Finger* const finger = finger_of(fingers, which);
+    // Without corners nothing is added: the result stays empty.
     if (finger == nullptr || !finger->has_corners()) continue;
     on_corners.resize(log.rows());
     const std::vector<double>& u = log.fingers[which].u;  // wrapped or not
@@ -332,6 +362,7 @@ Log from_row(Log log, std::size_t row) {
   cut(log.time);
   for (FingerRows& rows : log.fingers) {
     for (const auto column : kRowColumns) cut(rows.*column);
+    // Simulated rows have no lines.
     cut(rows.line);
   }
   return log;
@@ -339,6 +370,7 @@ Log from_row(Log log, std::size_t row) {
 
 std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers) {
   if (log.fingers.size() != 2 || log.kind != LogKind::contact || log.rows() == 0) return std::nullopt;
+  // Direction of the contact's outward normal in the world, u + psi of a disk. Whole turns do not matter.
   const auto direction = [&](std::size_t which) {
     const FingerRows& rows = log.fingers[which];
     const Contact first{rows.u.front(), rows.psi.front()};
@@ -350,6 +382,7 @@ std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers)
 
 Rounding rounding_of(const Log& log, const std::vector<Finger>& fingers) {
   require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
+  // Of two fingers theta is a difference: at worst both errors add up.
   Rounding sum;
   for (std::size_t k = 0; k < log.fingers.size(); ++k) {
     const Rounding one = rounding_of(log, log.fingers[k], finger_of(fingers, k));

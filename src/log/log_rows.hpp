@@ -36,16 +36,16 @@ class ColumnRounding {
   double value() const;
 
  private:
-  double finest_ = 0;
-  double digits_ = 0;   // significant ones, of the number that has most
-  double largest_ = 0;  // power of ten of the largest number's first digit
-  bool is_empty_ = true;
+  double finest_ = 0;     // half a unit of the finest last digit so far; 0: all numbers are exact
+  double digits_ = 0;     // significant ones, of the number that has most
+  double largest_ = 0;    // power of ten of the largest number's first digit
+  bool is_empty_ = true;  // of numbers that are not 0 and show digits
 };
 
 /// Of one finger.
 struct FingerRounding {
-  ColumnRounding place;
-  ColumnRounding angle;
+  ColumnRounding place;  // of u, length or distance
+  ColumnRounding angle;  // of psi, turn or dturn
 };
 
 /// What a row says of one finger that touches.
@@ -65,8 +65,8 @@ enum class RowKind {
 
 /// A row of all fingers.
 struct LogRow {
-  std::size_t line = 0;
-  std::optional<double> time;
+  std::size_t line = 0;            // of the log, from 1
+  std::optional<double> time;      // seconds, where the log has times
   PerFinger<FingerCells> fingers;  // of a row that touches
 };
 
@@ -111,6 +111,7 @@ class RowReader {
  private:
   enum class Source { unknown, lines, numbers };
 
+  /// Each of these throws InputError with the log's name and the line.
   void come_from(Source source);
   bool take_header();
   void require_same_columns(const std::optional<double>& time, const std::optional<PerFinger<Touch>>& fingers);
@@ -130,11 +131,11 @@ class RowReader {
   Source source_ = Source::unknown;
   TableCutter cutter_;
   TableRow table_row_;
-  std::vector<Columns> columns_;
-  std::size_t lines_ = 0;
-  bool header_may_come_ = false;
-  double time_ = 0;
-  std::size_t time_line_ = 0;  // 0: there was none
+  std::vector<Columns> columns_;  // of each finger; none before they are known
+  std::size_t lines_ = 0;         // seen so far
+  bool header_may_come_ = false;  // a connection dropped: until the next row that is accepted
+  double time_ = 0;               // of the last row that was accepted, seconds
+  std::size_t time_line_ = 0;     // 0: there was none
 };
 
 /// What the options say of one of two files.

@@ -6,6 +6,10 @@
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
 
+// A log that grows: a RowReader makes rows of lines or of numbers, RollRows judges and measures them. What a file
+// refuses is an answer of kind `malformed` here, so that a stream goes on. Follows docs/rolling.md, "A log that grows".
+// Only what leaves every row unreadable ends a stream: no text, a header that can't be taken, fingers that don't go
+// with it.
 namespace rollfix {
 
 struct LogStream::State {
@@ -18,15 +22,17 @@ struct LogStream::State {
   template <class Read>
   LogLine push(const Read& read);
 
-  RollRows rolls;
-  RowReader reader;
-  std::size_t malformed = 0;
+  RollRows rolls;             // judges rows and measures them
+  RowReader reader;           // makes rows of what is pushed
+  std::size_t malformed = 0;  // rows that were left out
 
  private:
+  /// Tells the rolls what the columns are, whenever a header may have come.
   void start();
+  /// Counts a row that is left out, and says why.
   LogLine skip(const InputError& error);
 
-  LogRow row_;
+  LogRow row_;  // the one that is pushed
 };
 
 void LogStream::State::start() {
@@ -39,17 +45,22 @@ LogLine LogStream::State::push(const Read& read) {
   try {
     found = read(reader, row_);
   } catch (const InputError& error) {
+    // The header, or the first row that says what the columns are: without it no row can be read.
     if (!reader.knows_columns()) throw;
     return skip(error);
   }
+  // A header gives no row. It can also have come again, with columns in another order.
   const bool may_be_header = found == RowKind::none || !rolls.has_started();
   if (may_be_header && reader.knows_columns()) start();
   if (found == RowKind::none) return {};
+  // Contact is lost, or was not there yet: the row's time counts, its cells do not.
   if (found == RowKind::off) {
     reader.accept(row_);
     return rolls.off();
   }
+  // Both fingers' cells stand in one line.
   const auto lines = PerFinger<std::size_t>::of(reader.columns().size(), row_.line);
+  // A row off the finger's end is left out before accept(): it must not count as the row before the next one.
   try {
     rolls.require_on_finger(row_, lines);
   } catch (const InputError& error) {
@@ -81,6 +92,7 @@ LogLine LogStream::push(std::string_view line) {
 
 LogLine LogStream::push(std::optional<double> time, double u, double psi, std::optional<double> x,
                         std::optional<double> y) {
+  // One finger is the same as a list of one.
   return push(time, Touch{u, psi, x, y});
 }
 
@@ -94,6 +106,7 @@ LogLine LogStream::push_off(std::optional<double> time) {
 
 void LogStream::resume() {
   state_->reader.resume();
+  // The next row may be far from the last one, and a header may come again.
   state_->rolls.skip();
 }
 

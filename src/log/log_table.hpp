@@ -33,9 +33,9 @@ class LogLines {
   bool refill();
 
   std::string name_;
-  std::FILE* file_ = nullptr;  // none: a text
-  std::string buffer_;         // a piece of the file
-  const char* cursor_ = nullptr;
+  std::FILE* file_ = nullptr;     // none: a text
+  std::string buffer_;            // a piece of the file
+  const char* cursor_ = nullptr;  // what was not given out yet: [cursor_, end_)
   const char* end_ = nullptr;
 };
 

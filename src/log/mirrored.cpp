@@ -5,9 +5,18 @@
 #include <numbers>
 #include <vector>
 
+// Notation:
+//   (x, y)          a point of the world; its mirror image is (-x, y); of an outlined finger's own frame (x, -y)
+//   u, psi          contact on the finger and the finger's orientation; in the mirror -u (on an open finger its
+//                   length less u) and pi - psi, of a jaw -psi
+//   L, theta        length and turn; in the mirror -L and -theta
+// Follows src/answer/steps.hpp, View, which mirrors a problem likewise.
+// Idea: a part that lies face down, felt by a finger, is the part as it was drawn, felt by the finger's mirror image.
+// So the log and the finger are mirrored, and the outline stays.
 namespace rollfix {
 namespace {
 
+/// A curve with y of the other sign: its position and all derivatives.
 struct Upended {
   Interval domain() const { return curve.domain(); }
   Jet jet(double u) const {
@@ -18,11 +27,13 @@ struct Upended {
   Curve curve;
 };
 
+/// The other sign of each.
 void negate(std::vector<double>& values) {
   for (double& value : values) value = 0.0 - value;  // no -0
 }
 
-/// Of places that may be wrapped to [0, period], which stay there.
+/// u of the mirrored finger, of each row. A wrapped column in [0, period] becomes one in [-period, 0]: a period is
+/// added, so that a reader still sees where it wraps. An open finger has no period, and nothing is added.
 void mirror_places(std::vector<double>& places, const Finger* finger) {
   const bool is_round = finger == nullptr || std::isfinite(finger->period());
   const bool is_above = std::all_of(places.begin(), places.end(), [](double u) { return u >= 0; });
@@ -37,7 +48,7 @@ void mirror_places(std::vector<double>& places, const Finger* finger) {
 
 Finger mirrored(const Finger& finger) {
   if (finger.outline() == nullptr) return finger;
-  // As it is stored; reversed, its body is on the left again. A closed one keeps its first point.
+  // The mirror image runs clockwise: reversed, its body is on the left again. A closed one keeps its first point.
   Outline outline = finger.outline()->outline();
   for (Curve& curve : outline.curves) curve = Upended{curve};
   outline.gallery.clear();

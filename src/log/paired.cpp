@@ -24,6 +24,7 @@
 namespace rollfix {
 namespace {
 
+/// The columns of this kind of log, for messages.
 std::string columns_in(const Log& log) {
   switch (log.kind) {
     case LogKind::contact:
@@ -42,13 +43,16 @@ std::string row_in_file(const Log& log, std::size_t row) {
   return line.empty() ? fmt::format("{}, row {}", log.name, row + 1) : where(log.name, line[row]);
 }
 
+/// Seconds from the first row to the last. REQUIRES times.
 double duration_of(const Log& log) { return log.time.back() - log.time.front(); }
 
+/// Throws InputError: a log of two fingers is paired already.
 void require_one_finger(const Log& log) {
   if (log.fingers.size() == 1) return;
   throw InputError(fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", log.name));
 }
 
+/// Throws InputError: other columns, or only one log has times.
 void require_same_kind(const Log& a, const Log& b) {
   if (a.kind != b.kind) {
     throw InputError(fmt::format("{} has {}, {} has {}: expected the same columns of both fingers", a.name,
@@ -60,9 +64,11 @@ void require_same_kind(const Log& a, const Log& b) {
   }
 }
 
+/// Keeps the rows [from, to) of a column; an empty column stays empty.
 template <class Column>
 void keep(Column& column, std::size_t from, std::size_t to) {
   if (column.empty()) return;
+  // The end first, so that `from` and `to` stay what they are.
   column.erase(column.begin() + static_cast<std::ptrdiff_t>(to), column.end());
   column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(from));
 }
@@ -72,6 +78,7 @@ void keep_between(Log& log, double first, double last) {
   const auto from =
       static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), first) - log.time.begin());
   const auto to = static_cast<std::size_t>(std::upper_bound(log.time.begin(), log.time.end(), last) - log.time.begin());
+  // A first contact and one reading, at least.
   if (to < from + 2) {
     throw InputError(
         fmt::format("{}: holds {} of a roll in which the other finger touches the part as well, expected "
@@ -84,9 +91,11 @@ void keep_between(Log& log, double first, double last) {
   keep(rows.line, from, to);
 }
 
-/// One finger may have found the part earlier or lost it later than the other.
+/// Cuts both logs to the times in which both fingers touch: one may have found the part earlier or lost it later. Only
+/// logs of u and psi are cut. Throws InputError: without times nothing says which rows belong together.
 void keep_common_contact(Log& a, Log& b) {
   const bool is_about_contact = a.contact_was_off || b.contact_was_off;
+  // Nothing was left out, or nothing can be cut, or both have the same lines.
   if (!is_about_contact || a.kind != LogKind::contact || a.fingers[0].line == b.fingers[0].line) return;
   if (a.time.empty()) {
     throw InputError(
@@ -95,6 +104,7 @@ void keep_common_contact(Log& a, Log& b) {
                     "belong together; add the times",
                     a.name, b.name));
   }
+  // Clocks round: rows at the ends may differ by that.
   const double slack = kSameInstant * std::max(duration_of(a), duration_of(b));
   const double first = std::max(a.time.front(), b.time.front()) - slack;
   const double last = std::min(a.time.back(), b.time.back()) + slack;
@@ -102,8 +112,10 @@ void keep_common_contact(Log& a, Log& b) {
   keep_between(b, first, last);
 }
 
+/// Throws InputError: row k of both logs is not the same instant, but for rounding.
 void require_same_times(const Log& a, const Log& b) {
   const double slack = a.time.empty() ? 0 : kSameInstant * std::max(duration_of(a), duration_of(b));
+  // As far as both go; other numbers of rows are refused next.
   const std::size_t both = std::min(a.time.size(), b.time.size());
   for (std::size_t k = 0; k < both; ++k) {
     if (std::abs(a.time[k] - b.time[k]) <= slack) continue;
@@ -114,6 +126,7 @@ void require_same_times(const Log& a, const Log& b) {
   }
 }
 
+/// Throws InputError: one log has more rows; the message names the first without a partner.
 void require_same_rows(const Log& a, const Log& b) {
   if (a.rows() == b.rows()) return;
   const Log& longer = a.rows() > b.rows() ? a : b;
@@ -126,12 +139,14 @@ void require_same_rows(const Log& a, const Log& b) {
 }  // namespace
 
 Log paired(Log a, Log b) {
+  // In this order: what both are, their common rows, then row by row.
   require_one_finger(a);
   require_one_finger(b);
   require_same_kind(a, b);
   keep_common_contact(a, b);
   require_same_times(a, b);
   require_same_rows(a, b);
+  // Each finger keeps its own file's name, for messages with lines.
   a.fingers[0].name = a.name;
   b.fingers[0].name = b.name;
   a.fingers.push_back(std::move(b.fingers[0]));
@@ -155,7 +170,9 @@ struct OneLog {
       : options(std::move(of_log)), of_pin(is_pin), reader(name, options, of_pin) {}
 
   bool knows_columns() const { return reader.knows_columns(); }
+  /// REQUIRES known columns.
   bool has_time() const { return reader.columns().front().has(Column::time); }
+  /// Another log comes in its place: its header is read anew, and no row waits.
   void begin_anew() {
     reader = RowReader(reader.name(), options, of_pin);
     rows.clear();
@@ -169,6 +186,7 @@ struct OneLog {
   std::optional<double> began{};  // time of its first row
 };
 
+/// A row that is left out, and why.
 LogLine malformed(const std::string& why) {
   LogLine line;
   line.kind = LineKind::malformed;
@@ -178,6 +196,8 @@ LogLine malformed(const std::string& why) {
 
 }  // namespace
 
+/// Two logs, rows of each that wait, and the rolls of both together. Invariant after match(): at most one of the logs
+/// has rows that could still find a partner, unless `holds` or a header is missing.
 struct PairedStream::State {
   State(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers, const Noise& noise,
         const LogOptions& options, bool robust, bool b_is_pin)
@@ -185,8 +205,12 @@ struct PairedStream::State {
               OneLog{names[1], in_unit_of(part, options_for_finger(options, 1)), b_is_pin}},
         rolls(part, std::move(fingers), noise, robust, options.any_part, names[0]) {}
 
+  /// The next line of one log; what comes of it is added to what take() gives.
   void push(std::size_t which, std::string_view line);
+  /// The first row that waits has no partner: it is left out, with a message, unless it could not be read and was told
+  /// of before.
   void drop_front(std::size_t which);
+  /// Pairs and skips rows until one of the logs has none left, or both wait.
   void match();
   std::vector<LogLine> take() { return std::exchange(found_, {}); }
 
@@ -196,12 +220,13 @@ struct PairedStream::State {
 
  private:
   void start();
+  /// By number, by time; takes both first rows as one. `slack`: how far times of one instant may differ, seconds.
   void match_fronts();
   void match_by_time();
   void take_fronts();
   double slack() const;
 
-  std::vector<LogLine> found_;
+  std::vector<LogLine> found_;  // since the last take(), in order
 };
 
 /// Both logs' columns are known.
@@ -209,10 +234,13 @@ void PairedStream::State::start() {
   const Columns& a = sides[0].reader.columns().front();
   const Columns& b = sides[1].reader.columns().front();
   for (const OneLog& side : sides) {
+    // Each log has to be of one finger.
     if (side.reader.columns().size() == 1) continue;
     throw InputError(
         fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", side.reader.name()));
   }
+  // A wheel only measures where its pin was: seen from a finger whose own place in the world is not known that says
+  // nothing.
   if (b.of_pin && (a.kind != LogKind::contact || !a.has(Column::x))) {
     throw InputError(fmt::format(
         "{}: expected columns 'u', 'psi', 'x' and 'y' beside a wheel: it says something by where its pin was as seen "
@@ -238,15 +266,21 @@ void PairedStream::State::push(std::size_t which, std::string_view line) {
     next.kind = side.reader.read(line, next.row);
   } catch (const InputError& error) {
     if (!side.knows_columns()) throw;
+    // A row that can't be read ends nothing: it is told of.
     LogLine& skipped = found_.emplace_back(malformed(error.what()));
+    // Whoever reads may take it for a log that begins anew.
     skipped.goes_back = dynamic_cast<const NotLater*>(&error) != nullptr;
+    // Without times rows are counted: one that can't be read keeps its number, and takes its partner with it.
     if (!side.has_time()) side.rows.push_back({});
     return match();
   }
+  // A header, or the first row: as soon as both logs' columns are known they are compared.
   const bool may_be_header = next.kind == RowKind::none || !rolls.has_started();
   if (may_be_header && sides[0].knows_columns() && sides[1].knows_columns()) start();
+  // A comment or a header; rows that waited for it may go on.
   if (next.kind == RowKind::none) return match();
   side.reader.accept(next.row);
+  // Rounding of times grows with the time since the first row.
   if (!side.began) side.began = next.row.time;
   side.rows.push_back(next);
   match();
@@ -264,10 +298,12 @@ void PairedStream::State::drop_front(std::size_t which) {
 }
 
 void PairedStream::State::match() {
+  // Rows wait until both headers are there.
   if (!rolls.has_started()) return;
   const auto is_full = [](const OneLog& side) { return side.rows.size() >= kMostWaiting; };
   // Whoever waits for the other log to begin anew can't wait for ever.
   if (is_full(sides[0]) && is_full(sides[1])) holds = false;
+  // Each turn takes at least one row away, or both logs wait.
   while (!sides[0].rows.empty() && !sides[1].rows.empty()) {
     const std::size_t before = sides[0].rows.size() + sides[1].rows.size();
     sides[0].has_time() ? match_by_time() : match_fronts();
@@ -275,34 +311,41 @@ void PairedStream::State::match() {
   }
 }
 
-/// Without times.
+/// Without times: the first rows of both belong together. If one of them could not be read neither counts.
 void PairedStream::State::match_fronts() {
+  // RowKind::none: could not be read, and keeps its number.
   const bool both = sides[0].rows.front().kind != RowKind::none && sides[1].rows.front().kind != RowKind::none;
   if (both) return take_fronts();
   for (const std::size_t which : {0U, 1U}) drop_front(which);
 }
 
+/// How far times of one instant may differ, seconds: kSameInstant of the longer time since a log began.
 double PairedStream::State::slack() const {
   double elapsed = 0;
   for (const OneLog& side : sides) elapsed = std::max(elapsed, *side.rows.front().row.time - *side.began);
   return kSameInstant * elapsed;
 }
 
+/// Times grow: the earlier one of both first rows can't find a partner any more. While a log begins anew both wait
+/// instead, because the other one's rows may be of the time before.
 void PairedStream::State::match_by_time() {
   const double apart = *sides[0].rows.front().row.time - *sides[1].rows.front().row.time;
   if (std::abs(apart) <= slack()) return take_fronts();
   if (!holds) drop_front(apart < 0 ? 0 : 1);
 }
 
+/// Both first rows as one of two fingers: contact is lost if either has none. Line and time are the first log's.
 void PairedStream::State::take_fronts() {
   holds = false;
   const WaitingRow a = sides[0].rows.front();
   const WaitingRow b = sides[1].rows.front();
   for (OneLog& side : sides) side.rows.pop_front();
+  // One finger without contact ends the roll of both.
   if (a.kind == RowKind::off || b.kind == RowKind::off) {
     found_.push_back(rolls.off());
     return;
   }
+  // Time and line are those of the first log.
   LogRow both = a.row;
   both.fingers = PerFinger<FingerCells>(a.row.fingers[0], b.row.fingers[0]);
   const PerFinger<std::size_t> lines(a.row.line, b.row.line);
@@ -329,6 +372,7 @@ std::vector<LogLine> PairedStream::push(std::size_t which, std::string_view line
 
 void PairedStream::resume(std::size_t which) {
   OneLog& side = state_->sides[which];
+  // Rows may be missing: their numbers don't tell any more which belong together.
   if (side.knows_columns() && !side.has_time()) {
     throw InputError(
         fmt::format("{}: the connection dropped, and there is no column 'time', so that it is not known which rows of "
@@ -336,20 +380,24 @@ void PairedStream::resume(std::size_t which) {
                     name(which), name(1 - which)));
   }
   side.reader.resume();
+  // Rows that were lost meanwhile make the next one look far.
   state_->rolls.skip();
 }
 
 std::vector<LogLine> PairedStream::restart(std::size_t which) {
   OneLog& side = state_->sides[which];
+  // Rows of the old log find no partner any more; those of the other log wait for the new one.
   while (!side.rows.empty()) state_->drop_front(which);
   side.begin_anew();
   state_->rolls.restart();
+  // Until the first pair of the new log, or until both have too many rows waiting.
   state_->holds = true;
   return state_->take();
 }
 
 std::vector<LogLine> PairedStream::finish() {
   for (const std::size_t which : {0U, 1U}) {
+    // No partner comes any more.
     while (!state_->sides[which].rows.empty()) state_->drop_front(which);
   }
   return state_->take();

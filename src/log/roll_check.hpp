@@ -23,6 +23,7 @@ class TurnRange {
   double variation() const { return variation_; }
 
  private:
+  /// A stretch of the boundary and the least and the largest Theta on it, radians.
   struct Cell {
     Interval s;
     Interval angle;
@@ -80,18 +81,20 @@ class RollCheck {
 
   /// How far errors can move what one row says against the row before it, ten standard deviations each.
   struct StepError {
-    double length = 0;
-    double turn = 0;
+    double length = 0;      // in the part's unit
+    double turn = 0;        // radians
     double share = 0;       // of the length that was travelled
     double turn_share = 0;  // of the turn
   };
 
+  /// What a finger did from one row to the next.
   struct Step {
-    double length = 0;
-    double turn = 0;
-    std::size_t line_before = 0;
+    double length = 0;            // on the part, in its unit, signed
+    double turn = 0;              // radians; of a contact on a corner the least that it leaves possible
+    std::size_t line_before = 0;  // line of the row that it starts at, for messages
   };
 
+  // The rules, as roll_check.cpp has them.
   static StepError error_of(LogKind kind, const Finger* finger, const Noise& noise);
   std::optional<Jump> impossible(const PerFinger<Step>& steps) const;
   double most_turn(std::size_t finger, double length) const;
@@ -102,17 +105,17 @@ class RollCheck {
 
   Part part_;
   TurnRange turns_;
-  std::vector<Finger> fingers_;
-  double noise_in_place_;
+  std::vector<Finger> fingers_;  // none where they are not known
+  double noise_in_place_;        // how far u may be beyond an open finger's end by noise, length
   PerFinger<StepError> error_;
-  PerFinger<std::array<double, kRecent>> recent_;  // sizes of steps
-  std::size_t steps_ = 0;
-  bool has_row_ = false;
-  PerFinger<std::size_t> line_;
-  std::optional<double> time_;
-  PerFinger<std::size_t> line_before_;  // of the row before that
+  PerFinger<std::array<double, kRecent>> recent_;  // speeds of steps, in turn; jumps are not among them
+  std::size_t steps_ = 0;                          // that were taken in, jumps left out
+  bool has_row_ = false;                           // there is a row before, in this roll
+  PerFinger<std::size_t> line_;                    // of that row
+  std::optional<double> time_;                     // of that row, seconds
+  PerFinger<std::size_t> line_before_;             // of the row before that
   std::optional<double> time_before_;
-  bool may_be_far_ = false;
+  bool may_be_far_ = false;  // rows are missing before the next one: rule 3 does not hold for it
 };
 
 }  // namespace rollfix

@@ -21,6 +21,7 @@
 namespace rollfix {
 
 double Odometer::ExactSum::add(double term) {
+  // What the addition rounds off is found without error, starting from the larger of both.
   const double next = sum_ + term;
   rest_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
   sum_ = next;
@@ -30,9 +31,11 @@ double Odometer::ExactSum::add(double term) {
 Reading Odometer::add(const FingerCells& row) {
   const bool is_first_contact = starts_here_;
   starts_here_ = false;
+  // The increment of a later roll's first row was made in the air: the sum starts behind it.
   if (kind_ == LogKind::increments) {
     return is_first_contact ? Reading{} : Reading{length_.add(row.place.value), turn_.add(row.angle.value)};
   }
+  // Counters run on between rolls: a later roll is measured from its own first row.
   if (is_first_contact) start_ = row;
   return {row.place.value - start_.place.value, row.angle.value - start_.angle.value};
 }
@@ -41,6 +44,7 @@ namespace {
 
 /// Whether a reader of these increments would add them up to the rows' length and turn, to the bit.
 bool add_up(const std::vector<double>& distance, const std::vector<double>& dturn, const FingerRows& rows) {
+  // Rows were added, taken out or made without increments.
   if (distance.size() != rows.length.size() || dturn.size() != rows.turn.size()) return false;
   Odometer odometer(LogKind::increments, false);
   for (std::size_t row = 0; row < distance.size(); ++row) {
@@ -56,6 +60,7 @@ std::vector<double> steps_to(const std::vector<double>& sums) {
   Odometer odometer(LogKind::increments, false);
   double before = 0;
   for (const double sum : sums) {
+    // `before`: what a reader has added up so far, so that errors of rounding don't add up.
     steps.push_back(sum - before);
     before = odometer.add({{steps.back(), 0}, {}}).length[0];  // what rounding took comes back with the next step
   }
@@ -64,6 +69,7 @@ std::vector<double> steps_to(const std::vector<double>& sums) {
 
 }  // namespace
 
+/// A log of increments that is written has to give the same rows when it is read, to the bit.
 Increments increments_of(const FingerRows& rows) {
   if (add_up(rows.distance, rows.dturn, rows)) return {rows.distance, rows.dturn};
   return {steps_to(rows.length), steps_to(rows.turn)};  // rows made or changed without them
@@ -85,6 +91,7 @@ RollRows::RollRows(const Part& part, std::vector<Finger> fingers, const Noise& n
   require_fingers(fingers_, 2, false, name);
 }
 
+/// Checks fingers, units and columns against each other. May be called again with the same kind of columns.
 void RollRows::start(const std::vector<Columns>& columns, const std::vector<std::string>& names) {
   columns_ = columns;
   names_ = names;
@@ -92,13 +99,17 @@ void RollRows::start(const std::vector<Columns>& columns, const std::vector<std:
   for (std::size_t k = 0; k < with_skin(); ++k) {
     require_unit_of_u(columns[k].u_dimension, finger_of(fingers_, k), names[k]);
   }
+  // Once: what steps are usual is kept where a header comes again.
   if (!check_) check_.emplace(part_, kind(), fingers_, with_skin(), noise_);
 }
 
+/// "run.csv:12" of this finger's log, for messages.
 std::string RollRows::place_of(std::size_t finger, const PerFinger<std::size_t>& lines) const {
   return where(names_[finger], lines[finger]);
 }
 
+/// A new roll of each finger, which no row was taken into yet. The first row of the next one has no row before it that
+/// it could jump from.
 void RollRows::begin_roll() {
   rolls_.clear();
   strays_ = 0;
@@ -117,9 +128,12 @@ void RollRows::require_on_finger(const LogRow& row, const PerFinger<std::size_t>
   }
 }
 
+/// The reading of this row from the roll's first contact; `before`: that of the row before, with its angles as they are
+/// understood by now. Fills the finger's contact and curvature in the sample.
 Reading RollRows::measure_contact(const FingerCells& cells, std::size_t which, Sample& sample, Reading& before) {
   OngoingRoll& roll = rolls_[which];
   const Finger& finger = *finger_of(fingers_, which);
+  // Digits first: how angles are unwrapped depends on how precise the column is by now.
   roll.rounding.place.add(cells.place);
   roll.rounding.angle.add(cells.angle);
   const Contact contact{roll.u.add(cells.place.value, roll.rounding.place.value()),
@@ -128,6 +142,7 @@ Reading RollRows::measure_contact(const FingerCells& cells, std::size_t which, S
   roll.has_first = true;
   (*sample.contact)[which] = contact;
   const double within = reach_of_corners(roll.rounding.place.value(), noise_);
+  // On a corner the finger's curvature is infinite: it pivots there.
   const bool is_on_corner = finger.has_corners() && finger.is_on_corner(contact.u, within);
   sample.finger_curvature[which] = is_on_corner ? std::numeric_limits<double>::infinity() : finger.curvature(contact.u);
   before = reading_between(finger, roll.first, {roll.u.before(), roll.psi.before()}, within);
@@ -143,14 +158,17 @@ void RollRows::add_pin(const FingerCells& cells, std::size_t which, Sample& samp
                                              : std::numeric_limits<double>::quiet_NaN()};
 }
 
+/// Measures the row from the first contacts of its roll, each finger by itself; in the sample both together.
 RollRows::Steps RollRows::measure(const LogRow& row, Sample& sample) {
   Steps steps{PerFinger<Reading>::of(with_skin()), PerFinger<Reading>::of(with_skin())};
   for (std::size_t k = 0; k < with_skin(); ++k) {
+    // Of a log without u and psi; with these measure_contact says it anew, because a wrap may be undone.
     steps.before[k] = rolls_[k].last;
     steps.now[k] = kind() == LogKind::contact ? measure_contact(row.fingers[k], k, sample, steps.before[k])
                                               : in_stored_direction(rolls_[k].odometer.add(row.fingers[k]), part_);
     rolls_[k].last = steps.now[k];
   }
+  // A pin has no reading of its own.
   for (std::size_t k = with_skin(); k < fingers(); ++k) add_pin(row.fingers[k], k, sample);
   sample.reading = together(steps.now);
   return steps;
@@ -177,11 +195,13 @@ Sample RollRows::sample_of(const LogRow& row, const PerFinger<std::size_t>& line
   sample.time = row.time;
   sample.finger_curvature = PerFinger<double>::of(fingers());
   if (kind() == LogKind::contact) sample.contact = PerFinger<Contact>::of(fingers());
+  // Where the log has the centres of all fingers, a pin's included.
   bool has_centre = true;
   for (const Columns& columns : columns_) has_centre = has_centre && columns.has(Column::x);
   if (has_centre) sample.centre = PerFinger<Vec2>::of(fingers(), Vec2::Zero());
   for (std::size_t k = 0; k < fingers(); ++k) {
     const Finger* const finger = k < with_skin() ? finger_of(fingers_, k) : nullptr;
+    // A disk's curvature is the same everywhere: known without u.
     if (finger != nullptr && finger->is_disk()) sample.finger_curvature[k] = finger->curvature(0);
     if (sample.centre) (*sample.centre)[k] = Vec2(row.fingers[k].x, row.fingers[k].y);
   }
@@ -190,21 +210,25 @@ Sample RollRows::sample_of(const LogRow& row, const PerFinger<std::size_t>& line
 
 LogLine RollRows::off() {
   LogLine result;
+  // Before the first contact there is nothing to lose.
   if (!rolls_.empty()) result.kind = LineKind::lost;
   rolls_.clear();
   return result;
 }
 
+/// In this order: is there a roll, what does the row measure, can it be, and is it stray or a jump.
 LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
   LogLine result;
   Sample& sample = result.sample;
   sample = sample_of(row, lines);
   result.kind = rolls_.empty() ? LineKind::first : LineKind::sample;
   if (rolls_.empty()) begin_roll();
+  // To take a stray row back; only a robust reader needs it.
   const std::vector<OngoingRoll> as_it_was = robust_ ? rolls_ : std::vector<OngoingRoll>{};
   Steps steps = measure(row, sample);
   // Beside a wheel one finger's steps alone can be any: the part turns as it likes.
   const bool can_jump = with_skin() == fingers() && !any_part_;
+  // Rows too far apart to see a wrap: the roll ends, this row begins another one.
   if (kind() == LogKind::contact) {
     if (const auto why = unclear_angle(lines)) {
       result.kind = LineKind::jump;
@@ -215,8 +239,11 @@ LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
       return result;
     }
   }
+  // Of a part that is not known, or beside a wheel, no step is a jump.
   if (!can_jump) return result;
   const auto jump = check_->jump(lines, steps.before, steps.now, row.time);
+  // Stray until shown otherwise: all is as it was before the row. After kMostStrays of them the next one that is away
+  // is a jump.
   if (jump && robust_ && strays_ < kMostStrays) {
     ++strays_;
     rolls_ = as_it_was;
@@ -226,6 +253,7 @@ LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
     return result;
   }
   strays_ = 0;
+  // The roll is over. The row is measured again, as the first contact of the next one.
   if (jump) {
     result.kind = LineKind::jump;
     result.message =
@@ -241,6 +269,7 @@ void RollRows::skip() {
   if (check_) check_->skip();
 }
 
+/// Another log: its columns and its usual steps may be others, and its increments count from its first row on.
 void RollRows::restart() {
   rolls_.clear();
   columns_.clear();

@@ -28,14 +28,14 @@ class Odometer {
     double add(double term);
 
    private:
-    double sum_ = 0;
-    double rest_ = 0;
+    double sum_ = 0;   // rounded
+    double rest_ = 0;  // what rounding took from it, added up
   };
 
   LogKind kind_;
-  bool starts_here_;
-  FingerCells start_;
-  ExactSum length_;
+  bool starts_here_;   // the next row is its roll's first contact
+  FingerCells start_;  // of lengths and turns: what the counters showed at the first contact
+  ExactSum length_;    // of increments
   ExactSum turn_;
 };
 
@@ -79,13 +79,13 @@ class RollRows {
   struct OngoingRoll {
     OngoingRoll(const Columns& columns, const Finger* finger, bool is_later_roll);
 
-    bool has_first = false;
-    Contact first;  // of u and psi
+    bool has_first = false;  // `first` is known
+    Contact first;           // of u and psi
     GrowingAngle u;
     GrowingAngle psi;
-    FingerRounding rounding;
-    Odometer odometer;  // of everything else
-    Reading last;
+    FingerRounding rounding;  // of the columns so far
+    Odometer odometer;        // of everything else
+    Reading last;             // of the last row
   };
 
   /// The reading of each finger with skin of a row, and what the row before it says by now.
@@ -106,14 +106,14 @@ class RollRows {
   Part part_;
   std::vector<Finger> fingers_;
   Noise noise_;
-  bool robust_;
-  bool any_part_;
+  bool robust_;                   // up to kMostStrays rows that jump away are left out
+  bool any_part_;                 // the part is not known: no step is a jump
   std::vector<Columns> columns_;  // of each finger
   std::vector<std::string> names_;
   std::optional<RollCheck> check_;  // none before the columns are known
   std::vector<OngoingRoll> rolls_;  // of each finger; none while there is no contact
-  bool is_later_roll_ = false;
-  std::size_t strays_ = 0;  // since the last row of the roll
+  bool is_later_roll_ = false;      // the next one is not the log's first
+  std::size_t strays_ = 0;          // since the last row of the roll
 };
 
 /// Lengths of a stream come out in the part's unit, unless another is asked for.

@@ -21,9 +21,12 @@ namespace {
 // A wrapped column can seem this much wider than its period: the rounding of its own 2 pi, in periods.
 constexpr double kWrapSlack = 2e-10;
 
-/// `range`: of all angles, of which there are so many.
+/// Whether a column with this range, of so many angles, may be wrapped: it stays within a period. One angle tells
+/// nothing, and without a period nothing wraps. Two angles fill a range too easily: they count as wrapped only if they
+/// lie in [-period / 2, period / 2] or in [0, period].
 bool may_be_wrapped(const Interval& range, std::size_t count, double rounding, double period) {
   if (count < 2 || !std::isfinite(period)) return false;
+  // Both ends of the range are rounded.
   const double slack = 2 * rounding + kWrapSlack * period;
   if (!(range.width() <= period + slack)) return false;
   if (count > 2) return true;
@@ -55,6 +58,7 @@ std::vector<double> unwrapped(const std::vector<double>& angles, double rounding
   double turns = 0;
   for (std::size_t k = 1; k < angles.size(); ++k) {
     turns -= turns_in(angles[k] - angles[k - 1], period);
+    // An angle without whole turns keeps its bits.
     if (turns != 0) result[k] = angles[k] + turns * period;
   }
   return result;
@@ -77,6 +81,7 @@ std::optional<std::size_t> unclear_step(const std::vector<double>& angles, doubl
                                         const std::optional<bool>& is_wrapped) {
   if (is_wrapped || angles.empty()) return std::nullopt;
   const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
+  // Left a full period: the column was never wrapped, and no step is unclear.
   if (!may_be_wrapped({*least, *most}, angles.size(), rounding, period)) return std::nullopt;
   std::vector<double> steps;                            // as they are if the column is wrapped
   std::vector<std::size_t> far;                         // of those that are others if it is not
@@ -90,10 +95,14 @@ std::optional<std::size_t> unclear_step(const std::vector<double>& angles, doubl
     if (whole != 0) far.push_back(k - 1);
     if (whole == 0) longest = std::max(longest, std::abs(step));
   }
+  // Several wraps whose other steps are short: no course within one turn looks like that.
   const bool is_wrapped_often = far.size() > 2 || std::abs(turns) > 1;
   if (far.empty() || (is_wrapped_often && longest <= kFarRows * period)) return std::nullopt;
+  // A far step, taken back, is clear where it is like the steps around it, and those are short. Else the column may as
+  // well go through less than a turn in one step.
   for (const std::size_t k : far) {
     const double size = std::abs(steps[k]);
+    // A neighbouring step goes the same way.
     const bool goes_on =
         (k > 0 && steps[k - 1] * steps[k] > 0) || (k + 1 < steps.size() && steps[k + 1] * steps[k] > 0);
     const bool belongs = size <= kShortStep * longest || (goes_on && size <= kLikeStep * longest);
@@ -102,6 +111,7 @@ std::optional<std::size_t> unclear_step(const std::vector<double>& angles, doubl
   return std::nullopt;
 }
 
+/// As the rows so far show it, unless it was said. Later rows can change the answer.
 bool GrowingAngle::is_wrapped(double rounding) const {
   return said_ ? *said_ && std::isfinite(period_) : may_be_wrapped(range_, count_, rounding, period_);
 }
@@ -110,6 +120,7 @@ double GrowingAngle::add(double angle, double rounding) {
   const double last = last_;
   const double turns = turns_;
   range_ = count_ == 0 ? Interval{angle, angle} : Interval{std::min(range_.lo, angle), std::max(range_.hi, angle)};
+  // Wraps are counted whether the column is wrapped or not: it may turn out later.
   if (count_ > 0) {
     const double whole = turns_in(angle - last, period_);
     turns_ -= whole;
@@ -117,6 +128,7 @@ double GrowingAngle::add(double angle, double rounding) {
   }
   last_ = angle;
   ++count_;
+  // Without whole turns the angle is as written, to the bit.
   const bool wraps = (turns != 0 || turns_ != 0) && is_wrapped(rounding);
   before_ = wraps ? last + turns * period_ : last;
   return wraps && turns_ != 0 ? angle + turns_ * period_ : angle;
@@ -138,6 +150,7 @@ void require_readable(const FingerRows& rows, const std::string& log) {
     throw InputError(
         fmt::format("{}: its rows would hold numbers beyond any double: check the units, and the noise", log));
   }
+  // A reader unwraps what he reads. If that changes any row, the log would not come back as it is.
   const std::size_t row = std::min(first_change(rows.u, unwrapped(rows.u, rows.place_rounding, rows.u_period)),
                                    first_change(rows.psi, unwrapped(rows.psi, rows.angle_rounding)));
   if (row == rows.u.size()) return;

@@ -42,14 +42,14 @@ class GrowingAngle {
  private:
   bool is_wrapped(double rounding) const;
 
-  double period_;
-  std::optional<bool> said_;
-  Interval range_;
-  std::size_t count_ = 0;
-  double last_ = 0;       // as written
-  bool was_far_ = false;  // a step over more than half a turn that is no short one either if it was wrapped
-  double turns_ = 0;      // whole ones that were wrapped away, if the column is wrapped
-  double before_ = 0;     // the last but one
+  double period_;             // 2 pi, or the finger's whole length; infinite: nothing wraps
+  std::optional<bool> said_;  // whether it is wrapped, where somebody said it
+  Interval range_;            // of all angles so far, as written
+  std::size_t count_ = 0;     // of them
+  double last_ = 0;           // as written
+  bool was_far_ = false;      // a step over more than half a turn that is no short one either if it was wrapped
+  double turns_ = 0;          // whole ones that were wrapped away, if the column is wrapped
+  double before_ = 0;         // the last but one
 };
 
 }  // namespace rollfix

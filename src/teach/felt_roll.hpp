@@ -25,8 +25,8 @@ class FeltRoll {
   const Log& log() const { return log_; }
   const Noise& noise() const { return noise_; }
   const Rounding& rounding() const { return rounding_; }
-  double radius() const { return radius_; }
-  double place_rounding() const { return felt_.place_rounding; }
+  double radius() const { return radius_; }                       // of the finger; 1 of a length and a turn
+  double place_rounding() const { return felt_.place_rounding; }  // radians of u, else length
   const TurningRuns& whole() const { return whole_; }
   std::size_t rows() const { return readings_.size(); }
 
@@ -44,23 +44,23 @@ class FeltRoll {
 
   /// Where the roll starts in the world, as far as the log says, and the tangent there.
   Vec2 start_point() const;
-  double start_direction() const;
+  double start_direction() const;  // radians
 
  private:
-  double bend() const;
+  double bend() const;  // mean curvature of the roll, at least 0
   void find_runs();
-  double seconds_at(double rolled) const;
-  double time_of(std::size_t row) const;
+  double seconds_at(double rolled) const;  // from the roll's start, seconds
+  double time_of(std::size_t row) const;   // of a reading, in the log's clock
 
   const Log& log_;
-  const FingerRows& felt_;
+  const FingerRows& felt_;  // the log's only finger
   const TeachOptions& options_;
-  Noise noise_;
-  Rounding rounding_;
-  std::vector<Reading> readings_;
-  bool is_backwards_ = false;  // as it was logged
-  double radius_ = 1;
-  TurningRuns whole_;
+  Noise noise_;                    // all 0 where none was given: rows are exact
+  Rounding rounding_;              // what digits can have moved the last reading by
+  std::vector<Reading> readings_;  // in the direction of growing length
+  bool is_backwards_ = false;      // as it was logged
+  double radius_ = 1;              // of the finger, length per radian of u; 1 without a finger
+  TurningRuns whole_;              // all rows, cut at the corners
 };
 
 // Rows within this share of the length are at one place, whatever their digits.

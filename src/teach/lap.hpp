@@ -21,10 +21,10 @@ struct RoundRoll {
 
 /// One time round.
 struct Lap {
-  double length = 0;
-  double length_sd = 0;
-  int turns = 0;
-  double turn_gap = 0;   // of the turn, less `turns` times 2 pi
+  double length = 0;     // in the log's unit
+  double length_sd = 0;  // 0: rows are exact
+  int turns = 0;         // whole ones that the tangent makes; below 0: clockwise
+  double turn_gap = 0;   // of the turn, less `turns` times 2 pi, radians
   bool goes_on = false;  // the roll does after it: then both are from all rows of the overlap
 };
 

@@ -36,12 +36,14 @@ constexpr double kLeastCorner = 0.1;
 constexpr double kNoGap = 1e-6;
 /// What rounding alone leaves: of lengths a share, of turns radians.
 constexpr double kRounding = 1e-9;
+/// Makes the outline of one roll: what drift allows, the lap, its fit, and how it is closed.
 class Teacher {
  public:
   Teacher(const Log& log, const TeachOptions& options) : roll_(log, options), options_(options) {
     taught_.rolled = roll_.whole().length();
   }
 
+  /// All steps, in the order of docs/teach.md, "Closing". Called once.
   Taught teach() {
     find_drift();
     lap_ = roll_.whole();
@@ -67,6 +69,8 @@ class Teacher {
     size_ = path.size();
     const double from_distance = roll_.is_noisy() ? 0 : leave_out_every_other(path);
     const double row_variance = roll_.errors().sd * roll_.errors().sd;
+    // Both ends' rows have their own noise; the drift comes on top. The place: the contact, slip along the roll, and
+    // the turn's error as a rotation of the part by its size.
     const double turn_sd = std::sqrt(2 * row_variance + roll_.drift_variance());
     const auto rows = static_cast<double>(roll_.rows());
     const double contact = roll_.noise().contact * (roll_.log().kind == LogKind::increments ? std::sqrt(rows) : 1);
@@ -78,13 +82,15 @@ class Teacher {
                           from_distance + kRounding * size_;
   }
 
-  /// How far the end moves; and how far the rows left out are off the curve through the others.
+  /// How far the end moves when every other row is left out, a length. Also sets `interpolated_`: what the rows left
+  /// out are off the curve through the others, over kInterpolated.
   double leave_out_every_other(const TurningPath& path) {
     TurningCourse thin;
     double off = 0;
     for (const TurningRun& run : roll_.whole().runs) {
       TurningRun every_other{run.lo, run.hi, {}, {}};
       for (std::size_t k = 0; k < run.s.size(); ++k) {
+        // The last row always stays, so that the run keeps its end.
         if (k % 2 == 1 && k + 1 < run.s.size()) continue;
         every_other.s.push_back(run.s[k]);
         every_other.angle.push_back(run.angle[k]);
@@ -104,12 +110,16 @@ class Teacher {
   /// What the rows' own noise moves the end by: each turns all that follows of a step, but for what others average.
   double gap_sd() const {
     if (!roll_.is_noisy()) return 0;
+    // Row errors turn a random walk of the direction: n independent steps of `step` sd each add up to sqrt(n) step sd.
     const double step = roll_.whole().length() / static_cast<double>(roll_.rows());
     const double rows = std::hypot(roll_.errors().sd * std::sqrt(step * roll_.whole().length()),
                                    std::numbers::sqrt2 * roll_.noise().contact);
     return std::hypot(rows, std::sqrt(roll_.drift_variance()) * size_);
   }
 
+  /// Finds the lap and puts the rows of one lap in `lap_`, later passes laid over it. A roll that does not come back is
+  /// a lap as a whole. To bridge, the end counts as a return only within what `gap_sd` says that
+  /// it moves.
   void take_lap() {
     const double row_sd = roll_.is_noisy() ? roll_.errors().sd : std::max(roll_.how().tolerance, interpolated_);
     const RoundRoll round{
@@ -127,12 +137,14 @@ class Teacher {
     lap_sd_ = lap.length_sd;
     taught_.turns = lap.turns;
     taught_.turn_gap = lap.turn_gap;
+    // So near to a corner a row of a later pass may be of either side: it is left out.
     const double near_corner = std::max(taught_.gap_allowed / kDeviations, kDeviations * roll_.noise().contact);
     lap_ = lay_over(
         roll_.whole(), lap, !roll_.is_noisy(), [&](double rolled) { return roll_.drift_share(rolled, lap.length); },
         near_corner);
   }
 
+  /// Theta over the lap, nothing closed, and the figures of the lap.
   void fit_lap() {
     taught_.lap = lap_.length();
     taught_.overlap = goes_on_ ? std::max(0.0, roll_.whole().length() - taught_.lap) : 0;
@@ -140,6 +152,7 @@ class Teacher {
     for (const TurningRun& run : lap_.runs) taught_.rows += run.s.size();
   }
 
+  /// The largest |Theta(s_k) - theta_k| over these rows, radians, added to what was found before.
   void measure_deviation(const TurningCourse& course, const TurningRuns& rows) {
     for (std::size_t index = 0; index < course.size(); ++index) {
       const TurningRun& run = rows.runs[index];
@@ -149,7 +162,8 @@ class Teacher {
     }
   }
 
-  /// From the end of the rows to their start: what the curve misses of the rows counts as well.
+  /// From the end of the rows to their start, a length. The path of the curve, and what the curve misses of the rows:
+  /// each row stands for the stretch up to the middles between its neighbours.
   double gap_of(const TurningCourse& course, const TurningRuns& rows) const {
     Vec2 gap = path_of(course, Vec2::Zero()).gap();
     for (std::size_t index = 0; index < course.size(); ++index) {
@@ -176,18 +190,23 @@ class Teacher {
     taught_.turn = kFullTurn * taught_.turns + taught_.turn_gap;
   }
 
+  /// Closes the lap where turn and gap are within what drift allows; else the part is kept open, and nothing is spread.
+  /// A turn that does not close may be a corner at the seam, if the place does close.
   void close() {
     const TurningCourse& course = course_;
     measure_turn();
     const double open_gap = gap_of(course, lap_);
     const bool turn_closes = std::abs(taught_.turn_gap) <= taught_.turn_allowed;
     const bool is_pivoting = lap_.starts_at_corner || lap_.ends_at_corner;
+    // Rolled from or to within a pivot, or the ends meet at an angle: the seam is a corner, which takes the rest of the
+    // turn.
     const bool corner_at_seam =
         is_pivoting || (!turn_closes && std::abs(taught_.turn_gap) >= kLeastCorner && open_gap <= taught_.gap_allowed);
     taught_.gap = open_gap;
     if (corner_at_seam || turn_closes) {
       RoundCourse round = corner_at_seam ? RoundCourse{course, lap_, 0}
                                          : round_course(roll_, lap_, taught_.turns, taught_.turn_gap, sums_);
+      // The gap counts with the turn closed: only then both ends are in one direction.
       taught_.gap = gap_of(round.course, round.rows);
       if (taught_.gap <= taught_.gap_allowed) {
         measure_deviation(round.course, round.rows);
@@ -201,6 +220,7 @@ class Teacher {
         }
       }
     }
+    // Kept open: the sums of the closed fit do not count.
     course_ = open_course(roll_, lap_, sums_);
     measure_deviation(course_, lap_);
     taught_.closing = Closing::kept_open;
@@ -225,6 +245,7 @@ class Teacher {
     build_bridge();
   }
 
+  /// An open curve, as the options ask for: the course as it is.
   void draw_open() {
     taught_.turn = course_.back().angle.back() - course_.front().angle.front();
     taught_.gap = gap_of(course_, lap_);
@@ -232,6 +253,7 @@ class Teacher {
     draw(course_, false);
   }
 
+  /// The outline of this course, turned and moved to where the log says that the roll starts.
   void draw(TurningCourse course, bool closed) {
     const double direction = roll_.start_direction();
     for (TurningNodes& nodes : course) {
@@ -252,20 +274,26 @@ class Teacher {
     Accuracy accuracy;
     const double lap = lap_.length();
     const auto rows = static_cast<double>(taught_.rows);
+    // Lengths: one factor, by slip, by the finger's radius, and by how well the lap's length is known.
     accuracy.length = roll_.noise().slip;
     if (roll_.is_fingers()) accuracy.length = std::hypot(roll_.noise().slip, roll_.noise().radius / roll_.radius());
     accuracy.length = std::hypot(accuracy.length, lap_sd_ / lap);
     if (!roll_.is_noisy()) {
+      // Exact rows: the tolerance as the standard deviation of an even distribution, or what rows leave open between
+      // them.
       const double rounding = roll_.how().tolerance / (2 * std::numbers::sqrt3);
       accuracy.turn = std::max(rounding, interpolated_);
       accuracy.alike = lap / rows;
       return accuracy;
     }
+    // Rows less parameters: the degrees of freedom of the residuals.
     const double free = std::max(1.0, rows - sums_.coefficients);
     taught_.row_sd = std::sqrt(sums_.squares / free);
     const double sd = std::max(roll_.errors().sd, taught_.row_sd);
+    // n rows and c coefficients: each place has the mean of n / c rows, so that its variance is sd^2 c / n.
     accuracy.turn = kUnseen * sd * std::sqrt(sums_.coefficients / rows);
     accuracy.alike = lap / std::max(1.0, sums_.coefficients);
+    // Drift adds up along the lap as a random walk: per square root of length. Increments' own errors are in it.
     double gathered = roll_.drift_variance();
     if (roll_.errors().gathers) {
       accuracy.turn = sd;
@@ -275,7 +303,8 @@ class Teacher {
     return accuracy;
   }
 
-  /// A cubic with the tangents of both ends and, about, the gap's length.
+  /// Closes the outline by a cubic from its end to its start, with the tangents of both. Its speed at the ends is the
+  /// gap's length, so that it is about as long as the gap. `bridge`: its length, by the midpoint rule.
   void build_bridge() {
     std::vector<Curve>& curves = taught_.outline.curves;
     const Vec2 from = curves.back().back();
@@ -291,14 +320,14 @@ class Teacher {
 
   FeltRoll roll_;
   TeachOptions options_;
-  double size_ = 0;
-  TurningRuns lap_;
-  bool goes_on_ = false;
-  double lap_sd_ = 0;
-  FitSums sums_;
+  double size_ = 0;             // diagonal of the box around the whole roll's path
+  TurningRuns lap_;             // rows of one lap, later passes laid over it
+  bool goes_on_ = false;        // the roll does, behind its first lap
+  double lap_sd_ = 0;           // of the lap's length
+  FitSums sums_;                // of the last fit
   double interpolated_ = 0;     // radians: how far exact rows leave Theta open between them
-  TurningCourse whole_course_;  // Theta of both, nothing closed
-  TurningCourse course_;
+  TurningCourse whole_course_;  // Theta of the whole roll, nothing closed
+  TurningCourse course_;        // Theta of the lap, nothing closed
   Taught taught_;
 };
 

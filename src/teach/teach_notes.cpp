@@ -17,10 +17,13 @@ constexpr double kNoisier = 1.25;
 /// Of tangents, radians, and of lengths, a share: what is known better is exact for all that anyone sees.
 constexpr double kExact = 1e-8;
 
+/// Writes the notes of a taught part, for people to read.
 class Notes {
  public:
   Notes(const FeltRoll& roll, Taught& taught) : roll_(roll), taught_(taught) {}
 
+  /// All notes, in the order in which the work was done: the rows, their noise, the accuracy, the lap, how it is
+  /// closed.
   void tell() {
     const std::string met = taught_.deviation <= kExact
                                 ? "through all rows"
@@ -52,6 +55,7 @@ class Notes {
  private:
   void say(std::string text) { taught_.notes.push_back(std::move(text)); }
 
+  /// What the part says of its own accuracy, and whether the rows are noisier than was stated.
   void tell_accuracy() {
     const Accuracy& accuracy = taught_.outline.accuracy;
     if (accuracy.turn <= kExact && accuracy.length <= kExact && accuracy.walk == 0) {
@@ -61,6 +65,7 @@ class Notes {
     std::string text =
         fmt::format("its tangents are known with a standard deviation of {:.2g} deg", accuracy.turn / kDegree);
     if (accuracy.walk > 0) {
+      // Over half a lap, the farthest that two places of a closed part are apart.
       text += fmt::format(", turns over half of it with {:.2g} deg",
                           accuracy.walk * std::sqrt(0.5 * taught_.lap) / kDegree);
     }
@@ -73,6 +78,7 @@ class Notes {
     }
   }
 
+  /// How the ends were joined, with what turn and gap are off and what drift allows of each.
   void tell_closing() {
     const std::string found = fmt::format(
         "the turn is off {} x 360 deg by {:.3g} deg (drift allows {:.3g}), the end is {:.3g} from the start (drift "

@@ -20,12 +20,14 @@ namespace rollfix::teaching {
 
 namespace {
 
-/// Weighs the third derivative where rows are missing: it may hardly move the rows that there are.
+/// Weighs the third derivative against the rows. It decides where rows are missing; where there are rows it has to move
+/// the curve by less than their tolerance.
 constexpr double kStiffness = 1e-11;
-/// A stretch with fewer rows is not split: it follows its row already.
+/// A span with fewer rows is not split: it passes through its only row already.
 constexpr std::size_t kLeastRows = 2;
 /// Exact rows are nodes themselves unless a spline does with a span for so many of them.
 constexpr std::size_t kRowsPerSpan = 4;
+/// Rounds of halving, at most: then the last spline is taken, met or not.
 constexpr int kMostRounds = 60;
 /// Spans that are off by this share of the worst are split with it.
 constexpr double kWorstShare = 0.5;
@@ -41,6 +43,7 @@ constexpr double kSameAngle = 1e-13;
 Vec2 value_and_slope(const FittedSpline& spline, double s) {
   const std::vector<double>& breaks = spline.knots().breaks;
   const std::size_t span = spline.knots().span_at(s);
+  // A span's own parameter is in [0, 1]: its derivative by s is divided by the span's length.
   const double width = breaks[span + 1] - breaks[span];
   const Jet jet = spline.spans()[span].jet((s - breaks[span]) / width);
   return {jet.position.x(), jet.first.x() / width};
@@ -49,6 +52,7 @@ Vec2 value_and_slope(const FittedSpline& spline, double s) {
 TurningNodes nodes_at_breaks(const FittedSpline& spline) {
   TurningNodes nodes;
   for (const double s : spline.knots().breaks) nodes.add(s, value_and_slope(spline, s));
+  // The first node again, to the bit: rounding must not open the seam.
   if (spline.knots().closed) {
     nodes.angle.back() = nodes.angle.front();
     nodes.slope.back() = nodes.slope.front();
@@ -65,6 +69,7 @@ class RowSpline {
     for (const double value : values) points_.emplace_back(value, 0);
   }
 
+  /// Least squares with these knots. With a knot at each row it passes through the rows, up to `kStiffness`.
   FittedSpline through(Knots knots) const { return {std::move(knots), s_, points_, kStiffness}; }
 
   /// With as few spans as will do. Where no more can be split, or more than `most` would be needed, the last one; `met`
@@ -74,6 +79,7 @@ class RowSpline {
     for (int round = 0;; ++round) {
       spline.emplace(through(knots));
       beat();
+      // What the rows of each span are off by at most, and how many there are.
       std::vector<double> worst_of(knots.spans(), 0);
       std::vector<std::size_t> count(knots.spans(), 0);
       double largest = 0;
@@ -87,7 +93,7 @@ class RowSpline {
       }
       met = largest <= tolerance;
       if (met || round == kMostRounds || knots.spans() > most) return *spline;
-      // A stretch that follows its only row already is helped by its neighbours.
+      // A span with one row or none can't be split. If it is off, its neighbours have to be: it passes its error on.
       const std::vector<double> own = worst_of;
       for (std::size_t k = 0; k < knots.spans(); ++k) {
         if (count[k] >= kLeastRows) continue;
@@ -97,6 +103,7 @@ class RowSpline {
       for (std::size_t k = 0; k < knots.spans(); ++k) {
         if (count[k] >= kLeastRows) worst = std::max(worst, worst_of[k]);
       }
+      // Halves the spans that are off by at least half as much as the worst one that can be split.
       Knots finer{{}, {}, knots.closed};
       for (std::size_t k = 0; k < knots.spans(); ++k) {
         finer.breaks.push_back(knots.breaks[k]);
@@ -111,8 +118,8 @@ class RowSpline {
   }
 
  private:
-  std::vector<double> s_;
-  std::vector<Vec2> points_;
+  std::vector<double> s_;     // places of the rows
+  std::vector<Vec2> points_;  // their values as first coordinates; the second ones are 0
 };
 
 }  // namespace
@@ -121,9 +128,11 @@ class RowSpline {
 /// an extreme among its neighbours nothing is changed: the true extreme lies between rows.
 void make_monotone(TurningNodes& nodes, bool round) {
   const std::size_t count = nodes.s.size();
+  // Where rows differ by rounding only, Theta stays: a straight side.
   for (std::size_t k = 0; k + 1 < count; ++k) {
     if (std::abs(nodes.angle[k + 1] - nodes.angle[k]) <= kSameAngle) nodes.angle[k + 1] = nodes.angle[k];
   }
+  // Slope of the chord behind node k. Beside the ends of a round course the chord across the seam counts.
   const auto chord = [&](std::size_t k) {
     return (nodes.angle[k + 1] - nodes.angle[k]) / (nodes.s[k + 1] - nodes.s[k]);
   };
@@ -131,11 +140,15 @@ void make_monotone(TurningNodes& nodes, bool round) {
     const bool is_end = k == 0 || k + 1 == count;
     const double before = k > 0 ? chord(k - 1) : (round ? chord(count - 2) : chord(0));
     const double after = k + 1 < count ? chord(k) : (round ? chord(0) : chord(count - 2));
+    // Two nodes: the straight line between them.
     if (is_end && !round && count == 2) {
       nodes.slope[k] = after;
       continue;
     }
+    // An extreme among the nodes: the true one lies beside it, and any slope is as good as its spline's.
     if (before * after < 0) continue;
+    // Fritsch and Carlson: of the chords' sign and at most three times the smaller one. At a chord of slope 0 the slope
+    // is 0.
     const double most = kMostSlope * std::min(std::abs(before), std::abs(after));
     const double sign = before + after < 0 ? -1 : 1;
     nodes.slope[k] = sign * std::clamp(sign * nodes.slope[k], 0.0, most);
@@ -172,6 +185,7 @@ void make_monotone_within(TurningNodes& nodes, bool round, const TurningRun& run
   make_monotone(monotone, round);
   for (std::size_t k = 0; k < run.s.size(); ++k) {
     const double off = std::abs(monotone.at(run.s[k]) - run.angle[k]);
+    // A row would be off by more than the tolerance, and by more than before: the curve stays as it was.
     if (off > tolerance && off > std::abs(nodes.at(run.s[k]) - run.angle[k])) return;
   }
   nodes = monotone;
@@ -179,6 +193,8 @@ void make_monotone_within(TurningNodes& nodes, bool round, const TurningRun& run
 
 }  // namespace
 
+/// Exact rows become nodes, unless a spline with a span for every kRowsPerSpan rows is within the tolerance of all of
+/// them.
 TurningNodes fit(const TurningRun& run, const TurningFit& how) {
   TurningNodes nodes;
   if (run.s.size() == 1) {  // nothing says that it bends
@@ -197,6 +213,7 @@ TurningNodes fit(const TurningRun& run, const TurningFit& how) {
 }
 
 TurningNodes fit_round(const TurningRun& run, double turn, const TurningFit& how) {
+  // Less an even turn the values are periodic: a closed spline fits them. The even turn is added again at the end.
   const double period = run.hi - run.lo;
   const auto ramp = [&](double s) { return turn * (s - run.lo) / period; };
   std::vector<double> s;
@@ -213,6 +230,7 @@ TurningNodes fit_round(const TurningRun& run, double turn, const TurningFit& how
   TurningNodes nodes;
   const bool takes_few = met && smooth.knots().spans() <= few;
   if (how.rows_are_exact && !takes_few && s.size() >= kFirstSpans) {
+    // Every row is a node; the last knot is the first one, a period later.
     Knots knots{s, {}, true};
     knots.breaks.push_back(s.front() + period);
     knots.sharp.assign(knots.breaks.size(), 0);

@@ -38,9 +38,9 @@ struct RowErrors {
 
 /// What a least-squares fit took and left, over one run or several.
 struct FitSums {
-  std::size_t rows = 0;
-  double coefficients = 0;
-  double squares = 0;  // of what the rows are off; of rows that gather, of what each adds
+  std::size_t rows = 0;     // rows of the runs; where errors gather, the steps between them
+  double coefficients = 0;  // of the splines: as many parameters were free
+  double squares = 0;       // radians^2: of what the rows are off; of rows that gather, of what each adds
   // What is left of the ramp when it is fitted like the rows: how well the rows tell the drift from the shape.
   double ramps = 0;  // its square
   double both = 0;   // times what is left of the rows

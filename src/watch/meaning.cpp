@@ -18,16 +18,25 @@
 // What the samples of a roll mean: of one finger or two on a known part, and of a finger with skin beside a wheel
 // without, which measure together while they hold a part that moves: docs/watch.md and docs/rig.md. Some rows are kept
 // for the answer at the end of the roll.
+// Notation:
+//   base            the first sample off all corners of the fingers: readings that are weighed are measured from it
+//   way             from the first contact to the base, nothing if these are the same: `way_`
+//   weighed, last   readings of the last sample off corners, and of the last one
+//   kept            of every `each` samples the first, fewer than kMostKept: what the roll is solved with at its end
+// Idea: of one finger or two the posterior grows with each sample (Belief), in memory that does not. A roll of fewer
+// than kMostKept samples is solved as `locate` would at its end. Beside a wheel there is no such posterior: kept
+// samples are solved again at every look.
 namespace rollfix {
 namespace {
 
-// A roll is looked at as a whole by no more samples than these.
+// A roll is solved as a whole by fewer samples than these. More take longer, at every look beside a wheel.
 constexpr std::size_t kMostKept = 4096;
 
 /// How far u is from the nearest corner of such a finger.
 double from_corner(const Finger& finger, double u) {
   double least = std::numeric_limits<double>::infinity();
   for (const Corner& corner : finger.outline()->corners()) {
+    // Convex ones; a joint that turns less than kJointTurn is no corner.
     if (corner.turn > kJointTurn) least = std::min(least, finger.outline()->distance(u, corner.s));
   }
   return least;
@@ -41,6 +50,8 @@ double rounding_on_corners(const std::vector<Sample>& samples, std::size_t which
     if (std::isinf(sample.finger_curvature[which]))
       farthest = std::max(farthest, from_corner(finger, (*sample.contact)[which].u));
   }
+  // Within the reach that noise has they count as on corners without any digits; else reach_of_corners takes twice the
+  // rounding.
   return farthest > reach_of_corners(0, noise) ? 0.5 * farthest : 0;
 }
 
@@ -52,6 +63,7 @@ void add_row(const Sample& sample, std::size_t which, LogKind kind, const Part& 
     rows.u.push_back((*sample.contact)[which].u);
     rows.psi.push_back((*sample.contact)[which].psi);
   } else {
+    // A sample is in the stored direction, a log as the user gave the outline; the conversion is its own inverse.
     const Reading as_given = in_stored_direction(sample.reading, part);  // back again
     rows.length.push_back(as_given.length[which]);
     rows.turn.push_back(which == 0 ? as_given.turn : 0);
@@ -80,6 +92,7 @@ Mode mode_of(const Placement& placement) {
 /// What is known of the fingers at their first contacts, as `solve` has it.
 FingerGeometry contacts_at(const Sample& first, const std::vector<Finger>& fingers) {
   FingerGeometry contacts{first.finger_curvature, {}, fingers};
+  // One finger, or a log without u and psi: no facing.
   if (first.reading.fingers() != 2 || !first.contact) return contacts;
   contacts.facing = nearest_angle(facing(*finger_of(fingers, 0), (*first.contact)[0]) -
                                   facing(*finger_of(fingers, 1), (*first.contact)[1]));
@@ -105,6 +118,7 @@ class OnPart final : public Meaning {
  public:
   OnPart(const Followed& followed, LogKind kind) : followed_(followed), kind_(kind) {}
 
+  /// Memory does not grow beyond kMostKept samples. A sample on a corner is kept for the end, and not weighed.
   void add(const Sample& sample) override {
     kept_.add(sample);
     last_ = sample.reading;
@@ -114,6 +128,8 @@ class OnPart final : public Meaning {
     belief_->add(from_base(sample));
   }
 
+  /// What the posterior says of all samples off corners; its modes led to the first contacts and to the last ones.
+  /// Before there is such a sample any place fits.
   void look(Tracked& answer) override {
     answer.verdict = {Verdict::unobservable};
     answer.rest = 1;
@@ -133,6 +149,7 @@ class OnPart final : public Meaning {
       problem.diagnose = explains;
       const Answer located = solve(problem);
       answer.diagnoses = located.diagnoses;
+      // Why rows fit badly is asked of the kept ones.
       const bool is_bad = located.verdict.fits_badly || located.verdict.name == Verdict::inconsistent;
       // Of a long roll only some samples were kept: where they fit, all of them say more.
       if (kept_.each() > 1 && !is_bad) return look(answer);
@@ -140,6 +157,7 @@ class OnPart final : public Meaning {
       answer.impossible = located.impossible.size();
       answer.rest = located.weighing->rest;
       answer.fit = located.weighing->fit;
+      // The answer of `solve`, as modes.
       answer.modes.clear();
       for (const Placement& placement : located.placements) answer.modes.push_back(mode_of(placement));
     } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
@@ -152,6 +170,7 @@ class OnPart final : public Meaning {
   }
 
  private:
+  /// Starts the posterior at the first sample off corners. A prior of the start is moved along with it.
   void begin(const Sample& base) {
     BeliefOptions options = followed_.belief_options();
     if (kept_.size() > 1) way_ = base.reading;
@@ -159,6 +178,7 @@ class OnPart final : public Meaning {
     belief_.emplace(followed_.part, kind_, options, contacts_at(base, followed_.fingers));
   }
 
+  /// The sample as measured from the base.
   Sample from_base(Sample sample) const {
     if (way_) sample.reading = between(*way_, sample.reading);
     return sample;
@@ -170,6 +190,7 @@ class OnPart final : public Meaning {
     if (way_) to_first_contacts(*way_, part, noise, mode);
     const Reading further = between(weighed_, last_);
     const bool is_further = std::any_of(further.length.begin(), further.length.end(), [](double l) { return l != 0; });
+    // At rest, or off corners, the last contacts are those that were weighed.
     if (is_further) to_last_contacts(further, part, noise, mode);
   }
 
@@ -185,10 +206,12 @@ class OnPart final : public Meaning {
 // A first contact alone is no log yet.
 constexpr std::size_t kLeastRows = 2;
 
+/// One number of both contacts of a placement.
 PerFinger<double> both(const HoldPlacement& one, double HoldContact::*number) {
   return {one.contacts[0].*number, one.contacts[1].*number};
 }
 
+/// The placement as a mode: finger a's and the wheel's contact.
 Mode mode_of(const HoldPlacement& one) {
   Mode mode;
   mode.start = both(one, &HoldContact::start);
@@ -235,10 +258,12 @@ class BesideWheel final : public Meaning {
   }
 
  private:
+  /// Solves the kept rows and the last one as `locate` would. With fewer than kLeastRows any place fits.
   void ask(Tracked& answer, bool explains) {
     answer.verdict = {Verdict::unobservable};
     answer.rest = 1;
     if (kept_.size() < kLeastRows) return;
+    // A copy: the last sample belongs to this look only.
     KeptSamples rows = kept_;
     rows.end_with(last_);
     const Log log = rows.log(LogKind::contact, problem_.part);
@@ -253,13 +278,14 @@ class BesideWheel final : public Meaning {
     answer.verdict.fits_badly = held->is_contradicted();
     answer.rest = held->rest;
     for (const HoldPlacement& one : held->placements) answer.modes.push_back(mode_of(one));
+    // All that `solve` says, the part's pose included.
     answer.held = held;
   }
 
   TrackOptions options_;
-  HoldProblem problem_;
+  HoldProblem problem_;  // its logs are filled in when it is asked
   KeptSamples kept_;
-  Sample last_;
+  Sample last_;  // whether it is kept or not
 };
 
 }  // namespace
@@ -268,18 +294,23 @@ void KeptSamples::add(const Sample& sample) {
   if (seen_++ % every_ != 0) return;
   kept_.push_back(sample);
   if (kept_.size() < kMostKept) return;
+  // Every other one stays, and from now on one of twice as many is kept: still evenly spread, from half of kMostKept
+  // up.
   for (std::size_t k = 0; 2 * k < kept_.size(); ++k) kept_[k] = kept_[2 * k];
   kept_.resize((kept_.size() + 1) / 2);
   every_ *= 2;
 }
 
+/// The last sample is told by its line.
 void KeptSamples::end_with(const Sample& sample) {
   if (kept_.empty() || kept_.back().line != sample.line) kept_.push_back(sample);
 }
 
+/// As a log that `solve` takes: unwrapped angles, lengths as the user gave them.
 Log KeptSamples::log(LogKind kind, const Part& part, const std::vector<Finger>& fingers, const Noise& noise) const {
   Log log;
   log.kind = kind;
+  // A sample has a curvature for each finger, a pin included.
   log.fingers.resize(kept_.empty() ? 1 : kept_.front().finger_curvature.size());
   for (const Sample& sample : kept_) {
     if (sample.time) log.time.push_back(*sample.time);
@@ -287,6 +318,7 @@ Log KeptSamples::log(LogKind kind, const Part& part, const std::vector<Finger>& 
       add_row(sample, which, kind, part, log.fingers[which]);
     }
   }
+  // Digits are not kept: where they put a row on a corner the log states a rounding that does it again.
   for (std::size_t which = 0; which < log.fingers.size(); ++which) {
     const Finger* const finger = finger_of(fingers, which);
     if (finger == nullptr || !finger->has_corners()) continue;
@@ -295,6 +327,8 @@ Log KeptSamples::log(LogKind kind, const Part& part, const std::vector<Finger>& 
   return log;
 }
 
+/// All that is known before and that was measured, as one problem of `solve`. Of increments each kept sample stands for
+/// `each` of them, whose independent errors add up by the square root.
 Problem problem_of(const Followed& followed, LogKind kind, const KeptSamples& kept) {
   const auto& [part, fingers, noise, options] = followed;
   Problem problem{part, kept.log(kind, part, fingers, noise), fingers, noise};
@@ -302,7 +336,7 @@ Problem problem_of(const Followed& followed, LogKind kind, const KeptSamples& ke
   problem.pose = followed.belief_options().pose;
   problem.robust = options.robust;
   problem.may_overlap = options.may_overlap;
-  if (kind == LogKind::increments) {  // one stands for several, which were off each
+  if (kind == LogKind::increments) {  // one stands for several, each with its own error
     problem.noise->contact *= std::sqrt(static_cast<double>(kept.each()));
     problem.noise->angle *= std::sqrt(static_cast<double>(kept.each()));
   }
@@ -313,6 +347,7 @@ BeliefOptions Followed::belief_options() const {
   BeliefOptions belief{noise, options.prior, options.robust};
   belief.pose = options.pose;
   if (belief.pose && options.log.mirrored) {
+    // The mirror image of the world has x and headings with the other sign.
     belief.pose->mean.x *= -1;
     belief.pose->mean.heading *= -1;
   }

@@ -13,7 +13,7 @@ namespace rollfix {
 
 /// What is followed, and with which fingers.
 struct Followed {
-  Part part;
+  Part part;  // of a catalog any of its parts
   std::vector<Finger> fingers;
   Noise noise;
   TrackOptions options;
@@ -35,12 +35,14 @@ class Meaning {
   Meaning(const Meaning&) = delete;
   Meaning& operator=(const Meaning&) = delete;
 
+  /// The next sample of the roll, measured from its first contact.
   virtual void add(const Sample& sample) = 0;
   /// What is known by now goes into the answer.
   virtual void look(Tracked& answer) = 0;
   /// The same when the roll is over, of the roll as a whole. `explains`: and, where its rows fit badly, why, which
   /// takes far longer.
   virtual void conclude(Tracked& answer, bool explains) = 0;
+  /// Whether `now` is worth telling to somebody who knows `said`.
   virtual bool is_news(const Tracked& said, const Tracked& now) const = 0;
 };
 
@@ -66,8 +68,8 @@ class KeptSamples {
 
  private:
   std::vector<Sample> kept_;
-  std::size_t every_ = 1;
-  std::size_t seen_ = 0;
+  std::size_t every_ = 1;  // of so many samples the first is kept
+  std::size_t seen_ = 0;   // samples so far
 };
 
 /// What is asked of all samples together.

@@ -22,6 +22,7 @@ class Rolls {
   /// The next row, of a log of this kind, and what is worth telling of it. Throws InputError: the log does not have
   /// what the noise or the pose's prior is about.
   std::vector<Tracked> push(const LogLine& row, LogKind kind);
+  /// The rest as Tracker has them.
   std::vector<Tracked> finish(RollEnd why);
   const Tracked& now();
   const Tracked& last() const { return answer_; }
@@ -49,18 +50,18 @@ class Rolls {
 
   Followed followed_;
   MakeMeaning make_;
-  LogKind kind_ = LogKind::contact;
-  std::unique_ptr<Meaning> meaning_;  // of the roll that goes on
-  std::size_t rolls_ = 0;
-  std::size_t samples_ = 0;      // of this roll
-  std::size_t all_samples_ = 0;  // of all rolls
-  Sample last_;                  // of these
-  Reading beginning_;            // of this roll, as the log measures
-  bool is_elsewhere_ = false;    // the next sample begins another one
-  Tracked answer_;               // when it was last worked out
-  Tracked said_;                 // what was told
-  std::chrono::steady_clock::time_point next_look_{};
-  bool has_news_ = false;
+  LogKind kind_ = LogKind::contact;                    // of the last row
+  std::unique_ptr<Meaning> meaning_;                   // of the roll that goes on
+  std::size_t rolls_ = 0;                              // so far, this one included
+  std::size_t samples_ = 0;                            // of this roll
+  std::size_t all_samples_ = 0;                        // of all rolls
+  Sample last_;                                        // of these
+  Reading beginning_;                                  // of this roll, as the log measures
+  bool is_elsewhere_ = false;                          // the next sample begins another one
+  Tracked answer_;                                     // when it was last worked out
+  Tracked said_;                                       // what was told
+  std::chrono::steady_clock::time_point next_look_{};  // live: not before this
+  bool has_news_ = false;                              // the answer is news, and was not told yet
   std::size_t explained_ = 0;  // as many samples there were when it was last looked for what is wrong
   std::vector<Tracked> told_;  // of the row that is pushed
 };
@@ -70,14 +71,15 @@ struct Tracker::State {
   /// Throws InputError: as Tracker does.
   State(const Followed& followed, MakeMeaning make);
 
+  /// A row of either stream: its message is kept, and what is worth telling comes back.
   std::vector<Tracked> take(const LogLine& row, LogKind kind);
   /// The log of numbers. Throws InputError: there are two logs, whose rows are lines.
   LogStream& numbers();
 
-  LogStream stream;
-  std::optional<PairedStream> two;  // in place of that
+  LogStream stream;                 // of one log, as lines or as numbers
+  std::optional<PairedStream> two;  // in place of that, of two logs
   Rolls rolls;
-  std::vector<std::string> messages;
+  std::vector<std::string> messages;  // of the last push
 };
 
 }  // namespace rollfix

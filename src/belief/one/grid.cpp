@@ -27,8 +27,9 @@ namespace {
 // the roll: between them the likelihood has no corners that a few cells would step over.
 constexpr double kFirstCells = 64;
 constexpr std::size_t kInstants = 8;
-// Where its mass is, cells are not wider than of this many, unless the density and the boundary are even in them: the
-// logarithm of the one a cubic, to so much, and the other straight, to that share.
+// Where the mass is, cells are no wider than one of this many equal ones, unless they are even: log L deviates from a
+// straight line by kEvenRise at most, and s(w) by the share kEvenSlope. Cells whose mass is below exp(-kShallow) of the
+// best need not be even.
 constexpr double kMostCells = 256;
 constexpr double kEvenRise = 0.05;
 constexpr double kEvenSlope = 0.1;
@@ -39,13 +40,13 @@ constexpr double kSlopeSafety = 2;
 constexpr double kNegligible = 25;
 // A cell is resolved when the distance changes by no more than this within it, in standard deviations.
 constexpr double kFineStep = 0.5;
-// ... and by once more as much for each factor of exp(-kDepth) by which it holds less than the best: far out a cell is
-// only summed.
+// A cell that holds exp(-kDepth) of the best one's mass may have twice that step, exp(-2 kDepth) three times, and so
+// on: far out a cell is only summed.
 constexpr double kDepth = 4;
 // By how much the log-likelihood's middle can be off the mean of its ends in a cell, of the distance's change squared:
 // four times what the information makes of it, h^2 F / 8.
 constexpr double kMostBend = 0.5;
-// A boundary whose s grows less with w than this share of what a straight one's does, is a corner.
+// Where s grows with w by less than this share of what it does on a straight side, the contact is in a corner.
 constexpr double kCornerSlope = 1e-6;
 // Cells are not made smaller than this share of the boundary.
 constexpr double kLeastCell = 1e-13;
@@ -56,11 +57,14 @@ constexpr double kEven = 1e-6;
 // ... and one that changes by more, as a logarithm, is as good as all at its upper end.
 constexpr double kSteep = 600;
 
+/// How fast the distance d changes between two points, per w: as the information at both allows, or as it does.
 double rate_of(const Score& lo, const Score& hi, double h) {
   return std::max(std::sqrt(std::max(lo.information, hi.information)),
                   std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h);
 }
 
+/// A lower bound on d^2 between two points. Within h, d is at least (d_lo + d_hi - rate h) / 2 if it changes no faster
+/// than `rate`; the rate is doubled, as it varies. It is never above the cost at either end.
 double least_cost_of(const Score& lo, const Score& hi, double h) {
   const double distances = std::sqrt(lo.cost) + std::sqrt(hi.cost);
   const double least_distance = std::max(0.0, 0.5 * (distances - kSlopeSafety * rate_of(lo, hi, h) * h));
@@ -69,6 +73,8 @@ double least_cost_of(const Score& lo, const Score& hi, double h) {
 
 }  // namespace
 
+/// The density is taken as exp(rise x), x from 0 to 1 across the cell: its integral (exp(rise x) - 1) / rise is
+/// inverted.
 double GridCell::quantile(double share_of_mass) const {
   // The density as an exponential: its integral, solved for where it ends.
   if (std::abs(rise) < kEven) return share_of_mass;
@@ -78,6 +84,7 @@ double GridCell::quantile(double share_of_mass) const {
   return std::clamp(at, 0.0, 1.0);
 }
 
+/// Even ones, both ends of each arc, and each kink as seen from the first contact and from `kInstants` instants.
 std::size_t most_first_points(const TiltedBoundary& boundary) {
   auto most = static_cast<std::size_t>(kFirstCells);
   for (const TiltedArc& arc : boundary.arcs()) most += 2 + arc.kinks().size() * (1 + kInstants);
@@ -105,16 +112,19 @@ Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const Belie
     ranges_.push_back({arc.lo(), arc.hi()});
   }
   if (folds_ == 1) return;
+  // Points lie on the first fold alone: on its share of the loop, or on the first arcs of several.
   const Shift fold = boundary.shift(1);
   if (fold.arcs == 0) ranges_.front().hi = ranges_.front().lo + fold.w;
   if (fold.arcs > 0) ranges_.resize(fold.arcs);
 }
 
+/// The point's filter moved to the fold of the cell, whose arc may be another one.
 RollFilter Grid::filter(const GridCell& cell, std::size_t end) const {
   const Shift shift = boundary_->shift(cell.fold);
   return point(cell, end).now.moved(boundary_->arcs()[cell.arc + shift.arcs], shift);
 }
 
+/// By bisection among the points that were kept: `spare_` is in order of w.
 GridPointer Grid::point_at(std::size_t arc, double w) {
   if (arc < spare_.size()) {
     std::pmr::vector<SparePoint>& spare = spare_[arc];
@@ -126,12 +136,15 @@ GridPointer Grid::point_at(std::size_t arc, double w) {
   return {allocator.new_object<GridPoint>(scorer_.make(boundary_->arcs()[arc], w)), GiveBack{memory_}};
 }
 
+/// The first points: even ones, and every w from where the contact is at a kink at one of the instants. They are at
+/// least `kLeastCell` of the boundary apart.
 void Grid::lay_out(const Nodes& nodes) {
   const double step = length_ / kFirstCells;
   std::pmr::vector<double> rolls({0.0}, memory_);
   const std::pmr::vector<Node>& complete = nodes.complete();
   for (std::size_t k = 1; k <= kInstants && !complete.empty(); ++k) {
     const Node& node = complete[(complete.size() * k - 1) / kInstants];
+    // A contact that starts at w is at w + theta + c L then: a kink there is seen from w = kink - roll.
     rolls.push_back(node.turn + boundary_->tilt() * node.length);
   }
   keep_points(nodes);
@@ -146,6 +159,7 @@ void Grid::lay_out(const Nodes& nodes) {
         if (w > range.lo && w < range.hi) ws.push_back(w);
       }
     }
+    // Even ones, both ends of the range among them.
     const auto count = static_cast<std::size_t>(std::ceil(range.width() / step));
     for (std::size_t k = 0; k <= count; ++k) {
       ws.push_back(range.lo + range.width() * static_cast<double>(k) / static_cast<double>(count));
@@ -176,6 +190,7 @@ void Grid::keep_points(const Nodes& nodes) {
   count_ = 0;
 }
 
+/// All points next to which the first contact may be. Without a restriction these are all.
 void Grid::refresh_all(const Nodes& nodes) {
   std::pmr::vector<GridPoint*> points(memory_);
   for (const GridPoints& arc : points_) {
@@ -188,6 +203,7 @@ void Grid::refresh_all(const Nodes& nodes) {
   scorer_.refresh_likely_first(points, nodes);
 }
 
+/// `base`: the laps of s.lo, so that the stretches are compared on the same lap, and on the next one as well.
 bool Grid::can_start_in(const Interval& s) const {
   if (options_.within.empty()) return true;
   const double lap = places_.closed ? places_.perimeter : 0;
@@ -197,21 +213,25 @@ bool Grid::can_start_in(const Interval& s) const {
   });
 }
 
+/// The density by w of the prior: ds/dw along the boundary, `corner_length_` (r) in a corner, where s stays.
 double Grid::log_prior(double length, double h, double width) const {
   const double slope = length / h;
   return std::log((slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_) * width);
 }
 
+/// Log likelihood by heat, plus the logarithms of the prior's density and of the peak's width.
 double Grid::log_mass(const GridPoint& point) const {
   // A peak is about one standard deviation wide, and no wider than the boundary.
   const double width = 1 / (std::sqrt(point.score.information) / fit_.widened + 1 / length_);
   return point.score.log_likelihood() / square(fit_.widened) + log_prior(point.now.place().slope, 1) + std::log(width);
 }
 
+/// Whether log L between the points is close to a straight line, by Hermite's cubic through both, and so is s(w).
 bool Grid::is_even(const GridPoint& lo, const GridPoint& hi, double length) const {
   const double h = hi.filter.w() - lo.filter.w();
   const double heat = square(fit_.widened);
   const double rise = hi.score.log_likelihood() - lo.score.log_likelihood();
+  // `off` is 0 where log L is a quadratic. `bend` is how far the cubic's middle is above the mean of both ends.
   const double off = rise - 0.5 * h * (lo.score.slope + hi.score.slope);
   const double bend = 0.125 * h * (lo.score.slope - hi.score.slope);
   const double slope = lo.filter.place().slope;
@@ -238,6 +258,7 @@ Score Grid::of_rows(const GridPoint& point) const {
   return at_least(score, point);
 }
 
+/// A narrow prior is bounded by itself: together with the rows it would look like a distance that changes fast.
 Grid::Bound Grid::bound_of(const GridPoint& lo, const GridPoint& hi, const GridCell& cell) const {
   const double h = cell.hi - cell.lo;
   const double cost = least_cost_of(of_rows(lo), of_rows(hi), h) + scorer_.least_narrow_cost(cell.s);
@@ -246,6 +267,8 @@ Grid::Bound Grid::bound_of(const GridPoint& lo, const GridPoint& hi, const GridC
           -0.5 * (cost + log_volume) / square(fit_.widened)};
 }
 
+/// One round over all cells: brings the ends of those that matter up to date, decides which cells are resolved, and
+/// halves the others. False: nothing has changed.
 bool Grid::refine(const Nodes& nodes) {
   const double heat = square(fit_.widened);
   bool changed = false;
@@ -254,12 +277,14 @@ bool Grid::refine(const Nodes& nodes) {
   for (std::size_t a = 0; a < points_.size(); ++a) {
     const TiltedArc& arc = boundary_->arcs()[a];
     const double least = kLeastCell * (arc.hi() - arc.lo());
+    // Wider cells are resolved only where density and boundary are even in them.
     const double narrow = length_ / kMostCells;
     const GridPoints& points = points_[a];
     std::pmr::vector<double> added(memory_);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       GridPoint& lo = *points[k];
       GridPoint& hi = *points[k + 1];
+      // Where the first contact can't be, a cell stays empty: it is not `fine`, and no rest either.
       GridCell cell{a, k, lo.filter.w(), hi.filter.w(), {lo.filter.place().s, hi.filter.place().s}};
       if (!can_start_in(cell.s)) {
         cells_.push_back(cell);
@@ -275,15 +300,18 @@ bool Grid::refine(const Nodes& nodes) {
         bound = bound_of(lo, hi, cell);
         changed = changed || (!PointScorer::is_stale(lo, nodes) && !PointScorer::is_stale(hi, nodes));
       }
+      // The most mass that the cell can hold, and how far below the best peak's that is, as logarithms.
       const double most = bound.log_density + log_width;
       const double depth = best_mass_ - most;
       const bool negligible = depth > kNegligible;
       cell.steps = bound.rate * h / fit_.widened;
       const bool is_resolved = cell.steps <= kFineStep * (1 + std::max(0.0, depth) / kDepth) &&
                                (h <= narrow || depth > kShallow || is_even(lo, hi, cell.s.width()));
+      // A cell at the least width counts as resolved, whatever its density does.
       cell.fine = !negligible && (is_resolved || h <= 2 * least);
       if (!negligible && !cell.fine && count_ + added.size() < most_points_) {
         added.push_back(cell.lo + 0.5 * h);
+        // Negligible cells, and those that there is no room to halve: their bound goes to the rest.
       } else if (!cell.fine) {
         rest_ += std::exp(std::min(0.0, most - best_ / heat));
       }
@@ -294,6 +322,7 @@ bool Grid::refine(const Nodes& nodes) {
   return changed;
 }
 
+/// Merges new points into an arc's, both in order of w, and scores them. True: there were new ones.
 bool Grid::split(std::size_t arc, std::span<const double> added, const Nodes& nodes) {
   if (added.empty()) return false;
   GridPoints& points = points_[arc];
@@ -314,6 +343,7 @@ bool Grid::split(std::size_t arc, std::span<const double> added, const Nodes& no
   return true;
 }
 
+/// The mass of each resolved cell, and the sum of all: `log_total_` is of the whole boundary, with all folds.
 void Grid::weigh() {
   const double heat = square(fit_.widened);
   double total = 0;
@@ -338,6 +368,7 @@ void Grid::weigh() {
     cell.share = std::exp(cell.log_density) * h;
     total += cell.share;
   }
+  // Each fold has the same mass.
   log_total_ = std::log(total * static_cast<double>(folds_));
   // Where so few points are allowed that no cell is resolved, nothing is known.
   rest_ = total > 0 ? std::min(1.0, rest_ / total) : 1;
@@ -345,10 +376,12 @@ void Grid::weigh() {
   for (GridCell& cell : cells_) cell.share /= total;
 }
 
+/// Until here shares add up to 1 on the first fold: each is divided by the number of folds.
 void Grid::unfold() {
   const std::size_t count = cells_.size();
   for (GridCell& cell : cells_) cell.share /= static_cast<double>(folds_);
   cells_.reserve(count * folds_);
+  // Copies lie further on by whole folds in w and in s, and share the points of the first.
   for (std::size_t fold = 1; fold < folds_; ++fold) {
     const Shift shift = boundary_->shift(fold);
     for (std::size_t k = 0; k < count; ++k) {
@@ -362,6 +395,7 @@ void Grid::unfold() {
   }
 }
 
+/// Each round the fit is that of the likeliest point so far: with it `widened` and the best mass change.
 void Grid::resolve(const Nodes& nodes) {
   for (int round = 0; round < kMostRounds; ++round) {
     measure_fit(nodes);
@@ -369,10 +403,12 @@ void Grid::resolve(const Nodes& nodes) {
   }
 }
 
-// As the roll goes on, other places of the boundary decide: the first points are laid out anew at each doubling. So
-// they are when nodes were joined: what a point was worth node by node can't be compared with what a point that takes
-// the joined ones is worth, because the scatter within the joined ones costs it nothing. And where no room is left for
-// those that decide now.
+/// Whether the first points are to be laid out anew, in one of four cases:
+/// - The rows have doubled: as the roll goes on, other places of the boundary decide.
+/// - Nodes were joined. The scatter within a joined node costs nothing, so that deviances by the nodes before and after
+///   can't be compared.
+/// - Half of the room for points is used: none may be left for those that decide now.
+/// - No cell is resolved.
 bool Grid::is_outgrown(const Nodes& nodes) const {
   const bool has_room = 2 * count_ <= most_points_;
   const auto is_fine = [](const GridCell& cell) { return cell.fine; };
@@ -388,6 +424,7 @@ void Grid::settle(const Nodes& nodes) {
     laid_out_at_ = std::max<std::size_t>(1, nodes.rows());
     refresh_all(nodes);
   } else {
+    // Points that matter by the rows before: all ends of resolved cells, each once. `refine` looks after the others.
     std::pmr::vector<GridPoint*> ends(memory_);
     for (const GridCell& cell : cells_) {
       if (!cell.fine || cell.fold > 0) continue;
@@ -403,6 +440,7 @@ void Grid::settle(const Nodes& nodes) {
   // Of the likeliest point alone, and once it is known: where its innovations drift, more of the boundary matters.
   trend_ = scorer_.trend(best_point(nodes), nodes, traced_);
   if (trend_.sigmas > kExcessSigma) resolve(nodes);
+  // What is still there of the layout before is not needed any more.
   spare_.clear();
   measure_fit(nodes);
   weigh();
@@ -410,6 +448,7 @@ void Grid::settle(const Nodes& nodes) {
   unfold();
 }
 
+/// A resolved cell, or a point whose mass is not negligible beside the rival's.
 bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
   const auto is_fine = [](const GridCell& cell) { return cell.fine; };
   if (std::any_of(cells_.begin(), cells_.end(), is_fine)) return true;
@@ -428,6 +467,7 @@ bool Grid::is_hopeless(const Nodes& nodes, const Rival& rival) {
   lay_out(nodes);
   refresh_all(nodes);
   measure_fit(nodes);
+  // `refine` compares with these: the rival's noise, and its evidence in place of the best mass.
   fit_.widened = rival.widened;
   best_mass_ = rival.log_evidence;
   bool holds = holds_something(nodes, rival);

@@ -128,7 +128,7 @@ struct GridCell {
   double log_density = 0;  // of it, by w, on average and up to a constant; ...
   double rise = 0;         // ... from the lower end to the upper one it changes by this
   double steps = 0;        // in standard deviations, what the distance changes by at most
-  bool fine = false;       // resolved; else it is known to hold next to nothing
+  bool fine = false;       // resolved; else negligible, or one of those that Grid::rest() bounds
   std::size_t fold = 0;    // so many of the boundary's folds further on than its points
 
   /// Up to which share of its width, from the lower end on, it holds this share of its mass.
@@ -161,7 +161,7 @@ class Grid {
   /// Brings all up to date with the samples.
   void settle(const Nodes& nodes);
 
-  /// Whether all of it holds next to nothing beside a rival, for all samples so far. Leaves no points.
+  /// Whether all of it is negligible beside a rival, exp(-25), for all samples so far. Leaves no points.
   bool is_hopeless(const Nodes& nodes, const Rival& rival);
 
   const std::pmr::vector<GridCell>& cells() const { return cells_; }

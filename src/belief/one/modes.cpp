@@ -24,8 +24,8 @@ namespace {
 
 // For what holds 95 %, cells are taken apart where their density changes by more than this, as a logarithm.
 constexpr double kRisePerPart = 0.25;
-// They hold equal shares of it: more of them than this tell nothing more, nor does one that holds less of all mass than
-// this, and far out a cell may rise by a million.
+// Parts of a cell hold equal shares of it. There are no more than kMostParts, as far out a cell may rise by a million,
+// and none need hold less than kLeastPart of all mass.
 constexpr double kMostParts = 1000;
 constexpr double kLeastPart = 1e-4;
 
@@ -33,14 +33,15 @@ constexpr double kLeastPart = 1e-4;
 struct Run {
   explicit Run(std::pmr::memory_resource* memory) : cells(memory), turns(memory) {}
 
-  std::pmr::vector<const GridCell*> cells;
-  std::pmr::vector<double> turns;
+  std::pmr::vector<const GridCell*> cells;  // side by side, by growing w
+  std::pmr::vector<double> turns;           // laps, 0 or 1, one for each cell
 };
 using Runs = std::pmr::vector<Run>;
 
 /// Cuts the cells of one arc, in order, at the valleys of the density.
 Runs cut_at_valleys(const Run& arc, std::pmr::memory_resource* memory) {
   Runs runs(memory);
+  // Of the run so far: its highest density, and the lowest one after that, with its cell.
   double peak = -std::numeric_limits<double>::infinity();
   double valley = peak;
   std::size_t valley_at = 0;
@@ -57,6 +58,7 @@ Runs cut_at_valleys(const Run& arc, std::pmr::memory_resource* memory) {
   for (std::size_t k = 0; k < arc.cells.size(); ++k) {
     const double density = arc.cells[k]->log_density;
     const bool has_peak = std::isfinite(peak);
+    // Both this cell and the peak stand out above the valley by kValley: the run ends there.
     if (has_peak && density > valley + kValley && valley < peak - kValley) {
       close(valley_at);
       peak = valley = density;
@@ -83,6 +85,7 @@ Runs arcs_of(const Grid& grid, const TiltedBoundary& boundary) {
     arc.cells.push_back(&cell);
     arc.turns.push_back(0);
   }
+  // No mode is cut where a loop is opened: the density is least there.
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     if (!boundary.arcs()[a].loop()) continue;
     Run& arc = arcs[a];
@@ -91,11 +94,13 @@ Runs arcs_of(const Grid& grid, const TiltedBoundary& boundary) {
         [](const GridCell* one, const GridCell* other) { return one->log_density < other->log_density; });
     const auto shift = least - arc.cells.begin();
     std::rotate(arc.cells.begin(), least, arc.cells.end());
+    // What was before the new first cell is a lap further on now.
     std::fill(arc.turns.end() - shift, arc.turns.end(), 1.0);
   }
   return arcs;
 }
 
+/// One mode, made from its run of cells.
 class ModeOfRun {
  public:
   ModeOfRun(const Grid& grid, const ModeQuestion& question, const Run& run)
@@ -104,6 +109,7 @@ class ModeOfRun {
   Mode mode() const {
     Mode mode;
     for (const GridCell* cell : run_.cells) mode.probability += cell->share;
+    // Means and intervals first: the start is held against the interval.
     spread(mode);
     const End best = best_end();
     const RollFilter filter = grid_.filter(*run_.cells[best.cell], best.end);
@@ -113,6 +119,7 @@ class ModeOfRun {
   }
 
  private:
+  /// The first contact at w, with its tangent Theta = w - c s and the contact now by the filter's estimate.
   void start(Mode& mode, const RollFilter& filter, double w) const {
     const double s = filter.arc()->at(w).s;
     mode.start = question_.places.on_first_lap(s);
@@ -134,6 +141,7 @@ class ModeOfRun {
     std::size_t end = 0;
   };
 
+  /// Of the point at that end, prior included.
   const Score& score_at(const End& at) const { return grid_.point(*run_.cells[at.cell], at.end).score; }
 
   /// The likeliest one.
@@ -151,8 +159,10 @@ class ModeOfRun {
   /// From there one step of Newton's method, no further than its neighbours are: w.
   double peak(const End& best, double w) const {
     const Score& score = score_at(best);
+    // Nothing is known of w there: no step.
     if (score.information <= 0) return w;
     const auto width = [&](std::size_t k) { return k < run_.cells.size() ? run_.cells[k]->hi - run_.cells[k]->lo : 0; };
+    // The cells on either side of the point, within the run: 0 where there is none.
     const std::size_t above = best.cell + best.end;
     const double below = above > 0 ? width(above - 1) : 0;
     return w + std::clamp(score.slope / score.information, -below, width(above));
@@ -166,20 +176,24 @@ class ModeOfRun {
     double square = 0;
     double end_sum = 0;
     double end_square = 0;
+    // Sums are about a place of the run: squares of small numbers keep their digits.
     const double near = run_.cells.front()->s.middle();
     for (std::size_t k = 0; k < run_.cells.size(); ++k) {
       const GridCell& cell = *run_.cells[k];
       if (!cell.fine) continue;
       const double turn = run_.turns[k] * P - near;
       const double width = cell.s.width();
+      // The mean of the cell's exponential density; s is straight across a cell.
       const double at = cell.s.lo + cell.mean() * width + turn;
       const RollFilter& lower = grid_.point(cell, 0).now;
       const RollFilter& upper = grid_.point(cell, 1).now;
+      // Where the contact is now for both ends of the cell, and in between likewise.
       const Interval ends{lower.after(question_.last).s, upper.after(question_.last).s};
       const double end = ends.lo + cell.mean() * ends.width() + turn + question_.boundary->shift(cell.fold).s;
       const double end_variance = lower.variance_after(question_.last, question_.own);
       total += cell.share;
       sum += cell.share * at;
+      // An even density of this width has the variance width^2 / 12.
       square += cell.share * (at * at + width * width / 12);
       end_sum += cell.share * end;
       end_square += cell.share * (end * end + end_variance);
@@ -189,8 +203,10 @@ class ModeOfRun {
     mode.mean = question_.places.on_first_lap(near + mean);
     mode.sd = std::sqrt(std::max(0.0, square / total - mean * mean));
     mode.end_mean = question_.places.on_first_lap(near + end_mean);
+    // The end's variance: between cells, and in each that of the roll from a fixed start.
     mode.end_sd = std::sqrt(std::max(0.0, end_square / total - end_mean * end_mean));
 
+    // The 95 % interval leaves as much below as above.
     const double lo = quantile(0.5 * (1 - kCredible) * total);
     const double hi = quantile(0.5 * (1 + kCredible) * total);
     const double at = question_.places.on_first_lap(lo);
@@ -198,6 +214,7 @@ class ModeOfRun {
     mode.region = region();
   }
 
+  /// From the first resolved cell to the last one.
   Interval region() const {
     std::size_t first = 0;
     while (!run_.cells[first]->fine) ++first;
@@ -220,6 +237,7 @@ class ModeOfRun {
     double share = 0;
   };
 
+  /// s, unwrapped, up to which the run holds this much mass.
   double quantile(double mass) const {
     const Place place = place_of(mass);
     return at(place.cell, place.share);
@@ -230,6 +248,7 @@ class ModeOfRun {
     double before = 0;
     for (std::size_t k = 0; k < run_.cells.size(); ++k) {
       const GridCell& cell = *run_.cells[k];
+      // `before`: the mass of the cells that are passed.
       if (before + cell.share < mass) {
         before += cell.share;
         continue;
@@ -247,6 +266,7 @@ class ModeOfRun {
 
 }  // namespace
 
+/// Arcs are cut at valleys into runs. Runs that are probable enough (`is_listed`) become modes.
 std::pmr::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
   std::pmr::vector<Mode> modes(grid.memory());
   const auto is_likelier = [](const Mode& a, const Mode& b) { return a.probability > b.probability; };
@@ -261,6 +281,7 @@ std::pmr::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) 
     }
   }
   if (runs.empty()) return modes;
+  // Probabilities first: most runs are too improbable to be listed, and cost no more.
   const double likeliest = *std::max_element(probability.begin(), probability.end());
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (!is_listed(probability[k], likeliest)) continue;
@@ -279,6 +300,7 @@ std::optional<PoseSpread> pose_of(const Grid& grid, const GridCell& cell) {
   if (!lo.has_place()) return std::nullopt;
   PoseSpread pose = lo.pose();
   const Pose other = hi.pose().mean;
+  // In the middle of both ends; the covariance is the lower end's.
   pose.mean.x += 0.5 * (other.x - pose.mean.x);
   pose.mean.y += 0.5 * (other.y - pose.mean.y);
   pose.mean.heading += 0.5 * nearest_angle(other.heading - pose.mean.heading);
@@ -290,7 +312,9 @@ std::optional<PoseSpread> pose_of(const Grid& grid, const GridCell& cell) {
 std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
   std::vector<Piece> pieces;
   for (const GridCell& cell : grid.cells()) {
+    // Far out there are many cells with less.
     if (!(cell.share > kLeastShare)) continue;
+    // Theta = w - c s at both ends.
     const Interval tangent{cell.lo - boundary.tilt() * cell.s.lo, cell.hi - boundary.tilt() * cell.s.hi};
     pieces.push_back({cell.s.middle(), tangent.middle(), cell.share, pose_of(grid, cell)});
   }
@@ -320,6 +344,7 @@ struct Stretch {
   double length;
 };
 
+/// The densest first.
 void sort_by_density(std::pmr::vector<Stretch>& stretches) {
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.density > b.density; });
@@ -327,6 +352,7 @@ void sort_by_density(std::pmr::vector<Stretch>& stretches) {
 
 /// By s, from where it is least to where it is largest: an exponential.
 Interval densities_in(const GridCell& cell) {
+  // An exponential of this mean and rise has its maximum at mean rise / (1 - exp(-rise)).
   const double mean = cell.share / std::max(cell.s.width(), 1e-300);
   const double rise = std::max(std::abs(cell.rise), 1e-300);
   const double most = mean * rise / -std::expm1(-rise);
@@ -339,6 +365,7 @@ void add_parts(const GridCell& cell, std::pmr::vector<Stretch>& stretches) {
   const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, enough)));
   double before = 0;
   for (int k = 1; k <= parts; ++k) {
+    // Each part holds the same share: where the density is low it is long.
     const double to = cell.quantile(static_cast<double>(k) / parts);
     const double length = (to - before) * cell.s.width();
     stretches.push_back({cell.share / parts / std::max(length, 1e-300), cell.share / parts, length});
@@ -363,6 +390,7 @@ double density_of_enough(const Grid& grid) {
 
 }  // namespace
 
+/// The densest stretches are taken until they hold 95 %: the shortest set with that share. Length.
 double credible_length(const Grid& grid) {
   // Cells that are nowhere as dense are none of those that are asked for. What one fold holds the others hold as well.
   const double enough = density_of_enough(grid);
@@ -376,6 +404,7 @@ double credible_length(const Grid& grid) {
   double length = 0;
   for (const Stretch& stretch : stretches) {
     if (share >= kCredible) break;
+    // A stretch has a copy on each fold: as many of them as are still needed.
     const double count = std::min(folds, std::ceil((kCredible - share) / stretch.share));
     share += count * stretch.share;
     length += count * stretch.length;

@@ -38,6 +38,7 @@ constexpr double kFewestSmoothed = 6;
 std::vector<double> spread_out(const std::vector<Piece>& pieces, std::size_t finger, double lo, double step,
                                std::size_t inner) {
   std::vector<double> held(inner + 2 * static_cast<std::size_t>(kSpread), 0.0);
+  // The hat's integral up to x, 0 to 1. A step's share of a piece is the difference between its ends.
   const auto below = [](double x) {  // of a hat over kSpread steps on both sides of 0
     const double at = std::clamp(x / kSpread, -1.0, 1.0);
     return at < 0 ? 0.5 * (1 + at) * (1 + at) : 1 - 0.5 * (1 - at) * (1 - at);
@@ -53,6 +54,7 @@ std::vector<double> spread_out(const std::vector<Piece>& pieces, std::size_t fin
   return held;
 }
 
+/// With its lower end on the first lap.
 DensityPiece piece_on(const Boundary& places, double lo, double hi, double probability) {
   const double at = places.on_first_lap(lo);
   return {{at, at + (hi - lo)}, probability};
@@ -65,6 +67,7 @@ void sort_by_place(Density& density) {
 
 }  // namespace
 
+/// Resolved cells, cut into parts of equal mass: as many as keep the density even within each.
 Density density_of(const Grid& grid, const Boundary& places) {
   Density density;
   for (const GridCell& cell : grid.cells()) {
@@ -83,6 +86,7 @@ Density density_of(const Grid& grid, const Boundary& places) {
   return density;
 }
 
+/// Steps of equal width over the range of the pieces, with what each step holds. A range of width 0 is one step.
 void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
                  Density& density) {
   if (pieces.empty()) return;
@@ -94,6 +98,7 @@ void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t
   const double step = range.width() / inner;
   std::vector<double> held(static_cast<std::size_t>(inner), 0.0);
   if (step > 0 && inner >= kFewestSmoothed) {
+    // The hats of the outermost pieces reach over both ends of the range.
     range.lo -= kSpread * step;
     held = spread_out(pieces, finger, range.lo, step, held.size());
   } else {
@@ -109,6 +114,7 @@ void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t
   sort_by_place(density);
 }
 
+/// The likeliest of those that have taken all rows.
 const GridPoint& Grid::best_point(const Nodes& nodes) const {
   const GridPoint* best = nullptr;
   for (const GridPoints& arc : points_) {
@@ -121,6 +127,7 @@ const GridPoint& Grid::best_point(const Nodes& nodes) const {
   return *best;
 }
 
+/// Rows of increments and rows with `correlation` are not looked at for being alike.
 double Grid::step_between(const Nodes& nodes) const {
   if (!can_be_alike_) return 0;
   double travelled = 0;
@@ -136,12 +143,14 @@ double Grid::step_between(const Nodes& nodes) const {
   return count > 0 ? travelled / count : 0;
 }
 
+/// The fit at the likeliest point, and with it what cells are compared by: `best_`, `farthest_`, `best_mass_`.
 void Grid::measure_fit(const Nodes& nodes) {
   const GridPoint* best = &best_point(nodes);
   best_ = best->score.log_likelihood();
   gathered_ = -0.5 * best->now.log_gathered();
   farthest_ = scorer_.limit() - best->score.log_volume;
   const double freedom = nodes.freedom();
+  // Of robust rows by those that are no outliers: their part of the cost, and their number.
   fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
                          : fit_of(best->now.cost(), freedom, best->now.whiteness());
   fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
@@ -152,6 +161,8 @@ void Grid::measure_fit(const Nodes& nodes) {
   best_mass_ = log_mass(*best);
 }
 
+/// Mean and standard deviation over the whole posterior: the variance at one place, and that of the estimates between
+/// places. Each cell counts as the mean of its ends.
 Grid::Error Grid::shared_error(int which) const {
   double own = 0;  // for one place
   double mean = 0;
@@ -169,11 +180,13 @@ Grid::Error Grid::shared_error(int which) const {
   return {mean, std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean))};
 }
 
+/// True lengths are the measured ones divided by 1 + x_2; true turns are the measured ones less x_3 times them.
 void Grid::measure_scale() {
   const Error of_lengths = shared_error(2);
   const Error of_turns = shared_error(3);
   fit_.length_scale = 1 / (1 + of_lengths.mean);
   fit_.length_scale_sd = of_lengths.sd;
+  // Turns are taken off, lengths divided: see RollFilter::corrected.
   fit_.turn_scale = 1 - of_turns.mean;
   fit_.turn_scale_sd = of_turns.sd;
   const Error of_rate = shared_error(4);
@@ -181,12 +194,14 @@ void Grid::measure_scale() {
   fit_.turn_bias_sd = of_rate.sd;
 }
 
+/// The sum of |turn| of all spirals over 2 pi: 1 of a convex loop without corners. Corners are left out.
 double turns_to_and_fro(const Part& part) {
   double turned = 0;
   for (const Spiral& spiral : part.turning().spirals()) turned += std::abs(spiral.end.angle - spiral.start.angle);
   return turned / (2 * std::numbers::pi);
 }
 
+/// kMostNodes, times how often the boundary turns, up to kMostFiner.
 std::size_t most_nodes(const Part& part) {
   const double finer = std::clamp(turns_to_and_fro(part), 1.0, kMostFiner);
   return static_cast<std::size_t>(finer * static_cast<double>(kMostNodes));
@@ -194,6 +209,7 @@ std::size_t most_nodes(const Part& part) {
 
 TiltedBoundary tilted(const Part& part, const ErrorModel& errors, double curvature) {
   const RowCovariance own = errors.row(curvature);
+  // The tilt c at which an error of length counts as much in w as one of angle: c sd_L = sd_theta.
   const double even = std::sqrt(own.turn / own.length);
   return {part, tilt_of(curvature, even, part), accuracy_of(std::sqrt(own.length), part)};
 }
@@ -227,6 +243,7 @@ struct OneFingersGrid {
   OneFingersGrid(const OneFingersGrid&) = delete;
   OneFingersGrid& operator=(const OneFingersGrid&) = delete;
 
+  /// Empty where no first contact is known. `path` is null where centres are no evidence.
   CentreModel model(const Part& part, const std::optional<FirstCentre>& first) const {
     if (!first) return {};
     return {&part,
@@ -248,6 +265,7 @@ struct OneFingersGrid {
   Grid grid;
 };
 
+/// The facade: samples become rows, and the grid exists from the first sample on, which tells the finger's curvature.
 class OneFingersPosterior : public Posterior {
  public:
   OneFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts)
@@ -259,9 +277,11 @@ class OneFingersPosterior : public Posterior {
       begin(sample, sample.time.value_or(0));
       // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
       if (kind_ != LogKind::contact) take(sample);
+      // A first row that is not the start took some time, which only the second row tells.
       if (gathers_by_time() && has_way_to_first(kind_, sample.reading.length[0], sample.reading.turn)) first_ = sample;
       return;
     }
+    // Now it is known how long the first row took: all begins once more, with that.
     if (first_) {
       begin(*first_, start_before(*first_->time, *sample.time));
       take(*first_);
@@ -289,6 +309,7 @@ class OneFingersPosterior : public Posterior {
     return belief::credible_length(state_->grid);
   }
 
+  /// Of the last sample, at the ends of the modes: f = Theta(s + L) - Theta(s) - theta has the error dtheta - kappa dL.
   double variance_of_miss(const std::vector<Reading>& /*readings*/, const std::vector<Mode>& modes) const override {
     const SharedCovariance& shared = state_->errors.start();
     const RowCovariance own = state_->errors.row(last_.finger_curvature);
@@ -298,6 +319,7 @@ class OneFingersPosterior : public Posterior {
       // f is off by the turn's error less kappa times the length's.
       Shared by_error = Shared::Zero();
       by_error.head<kRolling>() << -kappa, 1, -kappa * last_.reading.length[0], last_.sensed, last_.seconds;
+      // What a taught part's outline is off by over that length.
       const double gathered = square(options_.noise.part.walk) * std::abs(last_.reading.length[0]);
       const double variance =
           by_error.dot(shared * by_error) + gathered + own.turn - 2 * kappa * own.both + kappa * kappa * own.length;
@@ -308,6 +330,7 @@ class OneFingersPosterior : public Posterior {
 
   std::vector<Piece> pieces(std::size_t /*index*/, const Mode& mode) const override {
     std::vector<Piece> pieces;
+    // First the mode's own start, with no share: poses are compared with its pose.
     pieces.push_back({mode.start, mode.tangent});
     for (Piece& piece : pieces_of(state_->grid, state_->boundary)) {
       if (part_.boundary().contains(mode.region[0], piece.s[0])) pieces.push_back(std::move(piece));
@@ -325,7 +348,9 @@ class OneFingersPosterior : public Posterior {
   }
 
  private:
+  /// Errors of turns grow with time: then `add` requires that every sample has a time.
   bool gathers_by_time() const { return options_.noise.drift > 0 || options_.noise.walk > 0; }
+  /// Makes the grid anew for a roll that starts at this time.
   void begin(const Sample& first, double time) {
     std::optional<FirstCentre> centre;
     if (const auto felt = felt_centre(first)) {
@@ -336,6 +361,7 @@ class OneFingersPosterior : public Posterior {
     if (first.contact) first_psi_ = (*first.contact)[0].psi;
     last_ = row_of(first);
   }
+  /// One row more.
   void take(const Sample& sample) {
     last_ = row_of(sample);
     state_->nodes.add(last_);
@@ -363,9 +389,9 @@ class OneFingersPosterior : public Posterior {
   FingerGeometry contacts_;
   std::optional<OneFingersGrid> state_;
   std::optional<Sample> first_;  // until it is known how long it took
-  Row last_;
-  double first_time_ = 0;  // of the roll's start
-  double first_psi_ = 0;
+  Row last_;                     // the last sample, as a row
+  double first_time_ = 0;        // of the roll's start
+  double first_psi_ = 0;         // psi of the first sample, radians
 };
 
 }  // namespace

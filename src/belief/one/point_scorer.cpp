@@ -41,15 +41,18 @@ constexpr double kSettledTurn = 1e-3;
 // all around are split down to its width.
 constexpr double kNarrowPrior = 0.01;
 
+/// A copy of these values in a memory resource.
 std::pmr::vector<double> in(std::pmr::memory_resource* memory, std::span<const double> values = {}) {
   return {values.begin(), values.end(), memory};
 }
 
+/// By the rows alone.
 Score score_of(const RollFilter& filter) {
   return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
 }
 
-/// What is known of the part's place adds this to a score.
+/// A pose prior as one sample more: the pose of the filter less the prior's, with both covariances. By the heading
+/// alone where no place is known.
 Score score_of(const PosePrior& prior, const RollFilter& filter) {
   Eigen::Vector3d by_w;
   const PoseSpread pose = filter.pose(&by_w);
@@ -78,10 +81,12 @@ PointScorer::PointScorer(const TiltedBoundary& boundary, const ErrorModel& error
       memory_(memory),
       places_(places) {}
 
+/// Before any row, with P0.
 RollFilter PointScorer::fresh_filter(const TiltedArc& arc, double w) const {
   return {arc, tilt_, w, errors_.start(), centres_};
 }
 
+/// Stale: its number of rows is one that no roll has.
 GridPoint PointScorer::make(const TiltedArc& arc, double w) const {
   const RollFilter fresh = fresh_filter(arc, w);
   return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
@@ -90,6 +95,7 @@ GridPoint PointScorer::make(const TiltedArc& arc, double w) const {
 void PointScorer::refresh(std::span<GridPoint* const> points, const Nodes& nodes) {
   const std::optional<Node> pending = nodes.pending();
   auto next = points.begin();
+  // First what is left of a lane's own point, then the next point that is stale or of nodes that are no more.
   const auto next_of_all = [&](Errand& errand) {
     if (errand.point != nullptr && next_errand(errand, nodes, pending)) return true;
     for (; next != points.end(); ++next) {
@@ -107,6 +113,7 @@ void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const
   std::pmr::vector<RollFilter> filters(memory_);
   filters.reserve(points.size());
   for (const GridPoint* point : points) filters.push_back(fresh_filter(*point->filter.arc(), point->filter.w()));
+  // All take the trial nodes, however far off they are: only their order matters.
   std::size_t begun = 0;
   const auto next = [&](Errand& errand) {
     if (begun == filters.size()) return false;
@@ -125,6 +132,7 @@ void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const
   refresh(ordered, nodes);
 }
 
+/// The complete nodes that the point has not taken. One of an older generation begins anew.
 Errand PointScorer::first_errand(GridPoint& point, const Nodes& nodes) const {
   if (point.generation != nodes.generation()) {
     point = make(*point.filter.arc(), point.filter.w());
@@ -138,21 +146,26 @@ bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::opt
   GridPoint& point = *errand.point;
   const std::pmr::vector<Node>& complete = nodes.complete();
   const Node* last = complete.data() + complete.size();
+  // The complete nodes are over: `filter` stays as it is for the rows to come, and `now` goes on from it.
   if (errand.filter == &point.filter) {
     point.taken = static_cast<std::size_t>(errand.next - complete.data());
     point.now = point.filter;
     point.score = score_of(point.now);
     point.deviance = point.score.cost + point.score.log_volume;
     point.rows = static_cast<std::size_t>(-1);
+    // It stopped beyond the limit: stale, with a deviance that is a bound.
     if (errand.next != last) return false;
   }
+  // What follows is few rows or a pass that must be whole to count.
   errand.filter = &point.now;
   errand.whole = true;
+  // The node that is still filling is taken last, by `now` alone.
   if (pending && errand.end == last) {
     errand.next = &*pending;
     errand.end = errand.next + 1;
     return true;
   }
+  // Wide angles: all nodes once more, about what this pass has found.
   if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn, errand.end[-1].seconds)) {
     ++errand.pass;
     point.now = point.now.again(errors_.start(), memory_);
@@ -164,6 +177,7 @@ bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::opt
   return false;
 }
 
+/// Brings a point's score up to date: its rows and the priors. The volume is the rows' alone.
 void PointScorer::score(GridPoint& point, const Nodes& nodes) {
   point.rows = nodes.rows();
   point.score = score_of(point.now);
@@ -179,12 +193,15 @@ void PointScorer::score(GridPoint& point, const Nodes& nodes) {
 
 void PointScorer::lower_limit(double deviance, const Nodes& nodes) {
   // As if this were the best: its own noise, were it larger than is given, makes all others matter the more.
+  // Taken as the deviance to expect: one for each node, and one for the rows of the node that is still filling.
   const auto freedom = static_cast<double>(nodes.complete().size() + 1);
   const double noisier = std::max(1.0, deviance / freedom);
   const double farthest = std::sqrt(std::max(0.0, deviance) + kMatters * noisier) + kBeyondMatter * std::sqrt(noisier);
   limit_ = std::min(limit_, square(farthest));
 }
 
+/// Runs a filter that keeps its innovations through the nodes, or on from where it was when the last time was asked. Of
+/// wide angles always from the start, about what all rows found.
 Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::optional<Traced>& traced) const {
   const bool goes_on = traced && !errors_.is_wide() && traced->filter.arc() == point.filter.arc() &&
                        traced->filter.w() == point.filter.w() && traced->generation == nodes.generation();
@@ -196,6 +213,7 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::option
                0, nodes.generation(), Innovations{in(memory_), in(memory_), in(memory_)}});
     traced->filter.record_to(traced->innovations);
   }
+  // One errand, whole, by itself.
   const auto take = [&](RollFilter& filter, const Node* from, const Node* end) {
     bool is_begun = false;
     const auto once = [&](Errand& errand) {
@@ -218,6 +236,7 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::option
   return trend_of(all, nodes.freedom());
 }
 
+/// (s - s_prior)^2 / sd^2 and its derivatives by w; ds/dw is 0 in a corner.
 Score PointScorer::prior_at(const TiltedPlace& place) const {
   const double precision = 1 / square(options_.prior->sd);
   const double off = places_.offset(options_.prior->s, place.s);

@@ -26,9 +26,9 @@ inline constexpr double kSameLine = 0.02;
 
 /// What a row adds to a filter. Minus twice the logarithm of its likelihood is cost + log(volume).
 struct RowShare {
-  double weight;  // probability that it is not stray
+  double weight;  // probability that it is not an outlier
   double cost;
-  double volume;
+  double volume;  // det S / det S_w
 };
 
 /// Of so many equations: by how much they miss, squared, in standard deviations; and the determinants of their
@@ -76,7 +76,7 @@ class RollFilter {
   void record_to(Innovations& kept) {
     for (std::size_t k = 0; k < kept.size(); ++k) whiteness_[k].record_to(&kept[k]);
   }
-  /// Of the rows that are not stray: as many, and their part of the cost.
+  /// Of robust rows those that are no outliers: their number, as a sum of weights, and their part of the cost.
   double right_rows() const { return right_rows_; }
   double right_cost() const { return right_cost_; }
   const Shared& errors() const { return x_; }
@@ -96,7 +96,7 @@ class RollFilter {
  private:
   template <int Errors>
   friend class SideBySide;
-  struct Corrected {
+  struct Corrected {  // a row's length and turn less the shared errors; its time and gyroscope as they are
     double length;
     double turn;
     double sensed;
@@ -134,24 +134,24 @@ class RollFilter {
   /// The variance of theta + c L, from the shared errors and a row's own.
   double variance_of_roll(const Corrected& roll, const About& about, const RowCovariance& own) const;
 
-  const TiltedArc* arc_;
+  const TiltedArc* arc_;  // that the first contact is on
   const CentreModel* centres_;
   double tilt_;
-  double w_;
-  TiltedPlace place_;
-  double most_scale_;
-  double most_gyroscope_scale_;
-  double most_bias_;
-  Shared x_ = Shared::Zero();
-  SharedCovariance p_;
+  double w_;                                        // of the first contact
+  TiltedPlace place_;                               // there
+  double most_scale_;                               // bounds on |x|: of the scale of lengths, ...
+  double most_gyroscope_scale_;                     // ... of a gyroscope's scale, ...
+  double most_bias_;                                // ... and of its bias
+  Shared x_ = Shared::Zero();                       // the shared errors, ...
+  SharedCovariance p_;                              // ... and their covariance
   Eigen::Matrix2d walk_ = Eigen::Matrix2d::Zero();  // of the first two, from what has gathered alone
   Shared dx_ = Shared::Zero();                      // of x by w
-  double cost_ = 0;
-  double log_volume_ = 0;    // but for the logarithm of ...
-  double volume_ = 1;        // ... this
-  double log_gathered_ = 0;  // likewise
+  double cost_ = 0;                                 // sum of e^T S^-1 e
+  double log_volume_ = 0;                           // but for the logarithm of ...
+  double volume_ = 1;                               // ... this
+  double log_gathered_ = 0;                         // likewise
   double gathered_ = 1;
-  double slope_ = 0;
+  double slope_ = 0;  // of half the cost, by w
   double information_ = 0;
   std::array<Whiteness, 3> whiteness_;
   double right_rows_ = 0;

@@ -39,6 +39,7 @@ class SideBySide {
       : next_(next), limit_(limit), outliers_(outliers) {}
 
   void run() {
+    // Each turn of the loop takes one node in every lane. A lane whose errand is over gets the next one at once.
     for (std::size_t lane = 0; lane < kLanes; ++lane) begin(lane);
     while (busy_ > 0) {
       take_nodes();
@@ -56,6 +57,7 @@ class SideBySide {
 
  private:
   using PerError = std::array<Four, Errors>;
+  /// The same value for all errors and lanes.
   static PerError all(double value) {
     PerError each;
     each.fill(Four::Constant(value));
@@ -112,8 +114,10 @@ class SideBySide {
     Four of_length = s, of_turn = s;  // of what has gathered, with the equation
   };
 
+  // Eigen counts with signed numbers.
   static Eigen::Index at(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
+  /// Gives a lane its next errand that has nodes to take; an empty one where there is none.
   void begin(std::size_t lane) {
     beat();
     Errand& errand = errands_[lane];
@@ -125,6 +129,7 @@ class SideBySide {
     }
     errand = {};
   }
+  /// All nodes are taken, or the deviance is beyond what can matter and the errand need not be whole.
   static bool is_over(const Errand& errand, bool is_beyond) {
     return errand.next == errand.end || (is_beyond && !errand.whole);
   }
@@ -151,6 +156,7 @@ class SideBySide {
     copy(slope_, filter.slope_);
     copy(information_, filter.information_);
   }
+  /// Copies a filter's numbers into its lane.
   void load(std::size_t lane) {
     RollFilter& filter = *errands_[lane].filter;
     exchange(filter, [&](Four& all, const double& one) { all[at(lane)] = one; });
@@ -164,6 +170,7 @@ class SideBySide {
     is_first_[at(lane)] = filter.found_ ? 0 : 1;
     if (filter.found_) load_found(lane, *filter.found_);
   }
+  /// What the pass before found, for a filter in a later pass; see RollFilter::Found.
   void load_found(std::size_t lane, const RollFilter::Found& found) {
     for (std::size_t k = 0; k < Errors; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
@@ -175,6 +182,7 @@ class SideBySide {
     whole_way_.length[at(lane)] = found.gathered.length;
     whole_way_.turn[at(lane)] = found.gathered.turn;
   }
+  /// The other way round; the lower halves of the symmetric matrices are filled in.
   void save(std::size_t lane) {
     RollFilter& filter = *errands_[lane].filter;
     exchange(filter, [&](const Four& all, double& one) { one = all[at(lane)]; });
@@ -182,34 +190,43 @@ class SideBySide {
     filter.walk_(1, 0) = filter.walk_(0, 1);
   }
 
+  /// The lanes' next nodes, after what gathers up to their mean was added to P and K.
   Rows next_rows();
+  /// RollFilter::about for all lanes at once: branches become factors 0 and 1.
   About about(const Rows& rows) const;
   /// Offset and scale of lengths; else of turns.
   static constexpr bool is_of_length(std::size_t error) { return error == 0 || error == 2; }
+  /// L and theta of the rows, less these errors.
   static Rolled rolled(const Rows& rows, const PerError& errors);
+  /// Covariance of L and theta from this covariance of the shared errors.
   static Uncertain uncertain(const Rolled& rolled, const Covariance& p);
   /// By what the pass before left open; in a first pass by what the rows so far do.
   Uncertain open_of(const Rolled& rolled, const About& about, const Uncertain& so_far) const;
+  /// Adds variances to the offsets in P, and to K.
   void gather(const Four& length, const Four& turn);
+  /// s(w) as a line about w in one lane. A lane without errand gets none.
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
+  /// One node in every lane.
   void take_nodes();
+  /// Adds each lane's row to cost and volume. Returns 1 / S of the row, times its weight where outliers are possible.
   Four trust(const Lines& lines);
+  /// Kalman's correction of x, P, K and of what is summed for the likelihood.
   void correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain);
 
   const NextErrand& next_;
-  const double& limit_;
+  const double& limit_;  // of the deviance; it may fall while the lanes run
   const Outliers& outliers_;
   std::array<Errand, kLanes> errands_;
-  std::size_t busy_ = 0;
+  std::size_t busy_ = 0;  // lanes with an errand
   double tilt_ = 0;
   // Lanes without an errand go on with these: they only have to stay finite.
-  PerError x_ = all(0), dx_ = x_, most_ = all(1);
+  PerError x_ = all(0), dx_ = x_, most_ = all(1);  // most_: bounds on |x| of scales and bias
   Covariance p_ = Covariance::none();
   Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
-  Walked later_;       // what gathers after the rows' mean
-  Walked on_the_way_;  // so far
-  Walked whole_way_;   // in the pass before
-  About found_{all(0), Covariance::none()};
+  Walked later_;                             // what gathers after the rows' mean
+  Walked on_the_way_;                        // so far
+  Walked whole_way_;                         // in the pass before
+  About found_{all(0), Covariance::none()};  // by the pass before
   Four cost_ = walk00_, log_volume_ = walk00_, volume_ = Four::Ones(), log_gathered_ = walk00_,
        gathered_ = Four::Ones(), slope_ = walk00_, information_ = walk00_;
   Four w_ = walk00_, first_s_ = walk00_, first_slope_ = walk00_, is_first_ = Four::Ones();
@@ -217,6 +234,7 @@ class SideBySide {
 
 template <int Errors>
 typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
+  // A lane without errand takes this: variances above 0 keep all its numbers finite.
   static const Node kNone{0, 0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -229,6 +247,7 @@ typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
   const Four turn = each([](const Node& node) { return node.gathered.turn; });
   const Four in_mean = each([](const Node& node) { return node.share_in_mean(); });
   const Four averaged = each([](const Node& node) { return node.share_averaged(); });
+  // See Node::share_in_mean: the rest gathers after the correction.
   gather(in_mean * length, in_mean * turn);
   later_ = {(1 - in_mean) * length, (1 - in_mean) * turn};
   return {each([](const Node& node) { return node.length; }),
@@ -266,20 +285,24 @@ template <int Errors>
 typename SideBySide<Errors>::About SideBySide<Errors>::about(const Rows& rows) const {
   About about = found_;
   Covariance& open = about.open;
+  // From this row to the end of the roll the offsets walk on: what was found at the end is that uncertain here.
   open(0, 0) += (whole_way_.length - on_the_way_.length).max(0.0);
   open(1, 1) += (whole_way_.turn - on_the_way_.turn).max(0.0);
   const auto of_length = [&](const Covariance& p) {
     return p(0, 0) + rows.length * (2 * p(0, 2) + rows.length * p(2, 2));
   };
+  // 1 where the pass before leaves less of this length open than the rows so far do, else 0.
   const Four from_end = (of_length(open) <= of_length(p_)).template cast<double>();
   for (std::size_t k = 0; k < Errors; ++k) {
     for (std::size_t j = k; j < Errors; ++j) {
+      // Errors of length as the better of both has them; no covariance between errors from different passes.
       if (is_of_length(k) && is_of_length(j)) open(k, j) = p_(k, j) + from_end * (open(k, j) - p_(k, j));
       if (is_of_length(k) != is_of_length(j)) open(k, j) *= from_end;
     }
   }
   const Four is_later = 1 - is_first_;
   for (std::size_t k = 0; k < Errors; ++k) {
+    // x where this is a first pass, or a length that the rows so far know better; else what was found.
     about.errors[k] = x_[k] + (is_of_length(k) ? Four(is_later * from_end) : is_later) * (about.errors[k] - x_[k]);
   }
   return about;
@@ -309,6 +332,7 @@ typename SideBySide<Errors>::Uncertain SideBySide<Errors>::uncertain(const Rolle
 template <int Errors>
 typename SideBySide<Errors>::Uncertain SideBySide<Errors>::open_of(const Rolled& rolled, const About& about,
                                                                    const Uncertain& so_far) const {
+  // Lanes in their first pass: what the rows so far leave.
   Uncertain open = uncertain(rolled, about.open);
   open.length += is_first_ * (so_far.length - open.length);
   open.both += is_first_ * (so_far.both - open.both);
@@ -326,6 +350,7 @@ void SideBySide<Errors>::take_nodes() {
   const About about = is_first ? About{x_, p_} : this->about(rows);
   const Rolled roll = rolled(rows, about.errors);
   const Four& length = roll.length;
+  // w at the contact by the measured roll: w + theta + c L.
   const Four measured = w_ + (rows.turn - roll.by_turns(about.errors)) + tilt_ * length;
   const Uncertain so_far = uncertain(roll, p_);
   const Uncertain open = is_first ? so_far : open_of(roll, about, so_far);
@@ -340,17 +365,23 @@ void SideBySide<Errors>::take_nodes() {
   const Four turn_off = roll.by_turns(off);
 
   Lines lines;
+  // Fills in `lines` for contacts that are `beyond` from where their lines were drawn, in w.
   const auto draw = [&](const Four& beyond) {
     const Four& m = lines.slope;
     lines.rest = 1 - tilt_ * m;
+    // de/d(offset of length) = (1 - c m) / (1 + scale), de/d(offset of turn) = -m.
     const Four by_offset = lines.rest * roll.per_scale;
     lines.own =
         lines.rest * (lines.rest * rows.own_length - 2 * m * rows.own_both) + m * m * rows.own_turn + lines.bent;
+    // What averages out among a node's rows is in P already.
     const Four alone = lines.own - by_offset * by_offset * rows.averaged_length - m * m * rows.averaged_turn;
     lines.of_length = by_offset * walk00_ - m * walk01_;
     lines.of_turn = by_offset * walk01_ - m * walk11_;
+    // S_w of this row: its own errors and K.
     lines.noise = alone + by_offset * lines.of_length - m * lines.of_turn;
+    // S of this row: with P of all shared errors.
     lines.all = alone + lines.rest * (lines.rest * so_far.length - 2 * m * so_far.both) + m * m * so_far.turn;
+    // e at the filter's own estimate: the line is drawn about `about`, and taken from there to x.
     lines.miss = lines.s + m * (beyond - turn_off) - first_s_ - length + lines.rest * length_off;
   };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -359,15 +390,18 @@ void SideBySide<Errors>::take_nodes() {
   draw(Four::Zero());
   // Where the contact is likely to be, given the equation as well. A slope taken where the turn was measured would go
   // with that turn's own error, and what many rows say would be taken for more than it is.
+  // Covariance of the contact's w with e; `shift` is how far off w is likely to be, given e.
   const Four with_place = lines.slope * by_turn - lines.rest * by_length;
   Four gain = with_place / lines.all;
   Four shift = gain * lines.miss;
   if (!is_first) {
     const Four& m = lines.slope;
+    // In a later pass by what is open about the point of linearisation, and by e there.
     gain = with_place / (lines.own + lines.rest * (lines.rest * open.length - 2 * m * open.both) + m * m * open.turn);
     shift = gain * (lines.miss + m * turn_off - lines.rest * length_off);
   }
   if ((shift.abs() > kSameLine).any()) {
+    // The variance of w that e leaves. Lines are drawn again only in lanes that are far off.
     const Four left = (variance - gain * with_place).max(0.0);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (std::abs(shift[at(lane)]) > kSameLine) {
@@ -400,10 +434,12 @@ Four SideBySide<Errors>::trust(const Lines& lines) {
     }
   } else {
     cost_ += squared;
+    // det S / det S_w, row by row; the product's logarithm is taken now and then.
     volume_ *= lines.all / lines.noise;
   }
   gathered_ *= lines.noise / lines.own;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    // Factors are 1 or more: only overflow is to be kept away.
     if (volume_[at(lane)] > kLargeVolume) {
       log_volume_[at(lane)] += std::log(volume_[at(lane)]);
       volume_[at(lane)] = 1;
@@ -419,16 +455,19 @@ Four SideBySide<Errors>::trust(const Lines& lines) {
 template <int Errors>
 void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain) {
   const Four trusted = trust(lines);
+  // In standard deviations.
   const Four innovation = -trusted.sqrt() * lines.miss;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (errands_[lane].filter != nullptr) errands_[lane].filter->whiteness_[0].add(innovation[at(lane)]);
   }
+  // de/dw with the estimate moving along, sign reversed: m0 - m - (1 - c m) g dx/dw + m h dx/dw.
   const Four by_w =
       first_slope_ - lines.slope - lines.rest * rolled.by_lengths(dx_) + lines.slope * rolled.by_turns(dx_);
   slope_ -= trusted * lines.miss * by_w;
   information_ += trusted * by_w * by_w;
   PerError of_errors;
   for (std::size_t k = 0; k < Errors; ++k) {
+    // P H^T with H = (1 - c m) g - m h.
     of_errors[k] = lines.rest * uncertain.with_length[k] - lines.slope * uncertain.with_turn[k];
     const Four gain = trusted * of_errors[k];
     x_[k] -= lines.miss * gain;
@@ -437,6 +476,7 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   for (std::size_t k = 0; k < Errors; ++k) {
     for (std::size_t j = k; j < Errors; ++j) p_(k, j) -= trusted * of_errors[k] * of_errors[j];
   }
+  // The gain of the filter with K alone divides by S_w. `trusted * all` is an outlier's weight.
   const Four seen = trusted * lines.all / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;
   walk01_ -= seen * lines.of_length * lines.of_turn;
@@ -452,6 +492,8 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   }
 }
 
+/// Rows with centres have three equations and are taken one filter at a time. Others run side by side, with no more
+/// shared errors than the log has.
 void run_errands(const NextErrand& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
   if (!equations.centres && equations.bias) return SideBySide<kRolling>(next, limit, outliers).run();
   if (!equations.centres && equations.gyroscope_scale) return SideBySide<kWithoutBias>(next, limit, outliers).run();

@@ -29,21 +29,24 @@ constexpr std::uint32_t kFirstSquares = 64;
 constexpr std::size_t kMostSquares = 1500;
 // Of robust rows no single one may refuse a square: each counts at most this many standard deviations, squared, ...
 constexpr double kMostOfRow = 9;
-// ... and as many may be stray: a share of them, three at least.
+// ... and as many may be outliers: a share of them, three at least.
 constexpr double kMostStray = 0.15;
 
 /// A row as the search sees it: f is within what its contacts' ranges leave, give or take its own error.
 struct RangeRow {
-  bool is_facing = false;
-  std::array<double, 2> length{};
+  bool is_facing = false;          // see PairNode
+  std::array<double, 2> length{};  // of finger a and b
   std::array<double, 2> margin{};  // how far a contact may be from where it was felt
-  double turn = 0;
-  double precision = 0;
+  double turn = 0;                 // C, or the change since the first contacts
+  double precision = 0;            // of f, in units of sigmas: radians^-2
 };
 
+/// Up to kRowsOfSearch of the nodes. What a contact may be off goes into `margin`, in length; what the measured turn
+/// and normals may be off into `precision`.
 std::vector<RangeRow> rows_for(const PairModel& model, const std::vector<PairNode>& nodes, double sigmas) {
   const PairErrors& errors = *model.errors;
   const PairSharedCovariance& start = errors.start();
+  // Variances that have gathered up to this node.
   PairShared gathered = PairShared::Zero();
   std::vector<RangeRow> rows;
   for (const PairNode& node : some_of(nodes, kRowsOfSearch)) {
@@ -59,6 +62,8 @@ std::vector<RangeRow> rows_for(const PairModel& model, const std::vector<PairNod
       const double length = node.length[finger];
       const double kf = errors.normal_turn(finger);
       const double own = errors.contact_variance() / node.rows;
+      // Through 1/r a contact's error turns the felt normal: the row's own, and the first contact's where f is a
+      // change.
       variance += kf * kf * (node.is_facing ? start(i, i) : own + (errors.absolute() ? 0 : start(i, i)));
       row.length[finger] = length;
       if (node.is_facing) continue;
@@ -82,9 +87,12 @@ class PairSieve {
  public:
   PairSieve(const PairModel& model, const TurningRange& range, const std::vector<PairNode>& nodes, double sigmas)
       : model_(model), range_(range), rows_(rows_for(model, nodes, sigmas)) {
-    // A sum of as many squares, in units of sigmas^2.
+    // A chi-square of n rows exceeds n + sigmas sqrt(2 n) + sigmas^2 with a probability below exp(-sigmas^2 / 2)
+    // (Laurent and Massart, "Adaptive estimation of a quadratic functional by model selection", 2000).
+    // The sum counts squares in units of sigmas^2.
     most_ = (rows() + sigmas * std::sqrt(2 * rows()) + sigmas * sigmas) / (sigmas * sigmas);
     if (model.outlier_share <= 0) return;
+    // As many rows as may be outliers cost their most, and the square is still possible.
     most_of_row_ = kMostOfRow / (sigmas * sigmas);
     most_ += most_of_row_ * std::max(3.0, kMostStray * rows());
   }
@@ -94,6 +102,7 @@ class PairSieve {
   /// The square around (s, t), half as wide as this.
   bool is_possible(double s, double t, double half) const {
     beat();
+    // f over the square is an interval: Theta over the arcs that both contacts can reach.
     const double P = model_.perimeter();
     const bool absolute = model_.errors->absolute();
     const Interval at_s = absolute ? Interval{} : range_.over(s - half, s + half);
@@ -104,6 +113,7 @@ class PairSieve {
       const double reach_b = half + row.margin[1];
       const double a_at = s + row.length[0];
       const double b_at = t + row.length[1];
+      // A contact beyond an open outline's end for every pair in the square.
       if (!model_.places.closed &&
           (a_at + reach_a < 0 || a_at - reach_a > P || b_at + reach_b < 0 || b_at - reach_b > P)) {
         return false;
@@ -112,10 +122,12 @@ class PairSieve {
       const Interval b = range_.over(b_at - reach_b, b_at + reach_b);
       double lo = a.lo - b.hi - row.turn;
       double hi = a.hi - b.lo - row.turn;
+      // A change since the first contacts: their tangents, anywhere in the square, are taken off.
       if (!absolute && !row.is_facing) {
         lo += at_t.lo - at_s.hi;
         hi += at_t.hi - at_s.lo;
       }
+      // How far 0 is outside of [lo, hi]; where f counts up to whole turns, the nearest of them.
       double middle = 0.5 * (lo + hi);
       if (absolute || row.is_facing) middle -= kFullTurn * std::floor(middle / kFullTurn + 0.5);
       const double off = std::max(0.0, std::abs(middle) - 0.5 * (hi - lo));
@@ -135,12 +147,14 @@ class PairSieve {
 
 }  // namespace
 
+/// Quarters what is possible until squares are as small as `resolution`, or there are more than kMostSquares.
 PairCandidates pair_candidates(const PairModel& model, const TurningRange& range, const std::vector<PairNode>& nodes,
                                double sigmas, double resolution) {
   const double P = model.perimeter();
   const PairSieve sieve(model, range, nodes, sigmas);
   PairCandidates candidates;
   candidates.cells = kFirstSquares;
+  // Two contacts for each row and the sum: each is beyond `sigmas` with the chance erfc(sigmas / sqrt 2) (union bound).
   candidates.missed = std::min(1.0, (2 * sieve.rows() + 1) * std::erfc(sigmas / std::numbers::sqrt2));
   const auto centre = [&](std::uint32_t index) {
     return P * (static_cast<double>(index) + 0.5) / static_cast<double>(candidates.cells);
@@ -150,6 +164,7 @@ PairCandidates pair_candidates(const PairModel& model, const TurningRange& range
       if (sieve.is_possible(centre(i), centre(j), 0.5 * P / kFirstSquares)) candidates.squares.push_back({i, j});
     }
   }
+  // Cells are no smaller than two of the table's.
   const double most_cells = std::min(P / resolution, static_cast<double>(kRangeCells) / 2);
   while (candidates.cells < most_cells && candidates.squares.size() <= kMostSquares) {
     candidates.cells *= 2;

@@ -42,7 +42,7 @@ PairCandidates all_squares();
 
 /// A local maximum of the likelihood.
 struct PairPeak {
-  PairStart start;
+  PairStart start;  // w of both first contacts
   PairScore score;
 };
 
@@ -93,10 +93,10 @@ struct PairLeaf {
 /// about a standard deviation wide: it spreads from a peak to wherever the density is not negligible.
 struct PairRegion {
   PairStart origin;
-  std::array<double, 2> origin_s{};
+  std::array<double, 2> origin_s{};                     // arc length there, unwrapped
   Eigen::Matrix2d frame = Eigen::Matrix2d::Identity();  // from the region's coordinates to (w_a, w_b)
   Eigen::Matrix2d back = Eigen::Matrix2d::Identity();
-  std::vector<PairLeaf> leaves;
+  std::vector<PairLeaf> leaves;                                           // in the order in which they were found
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> leaves_of;  // of each whole square
   std::vector<PairStart> beyond;  // where it leaves the half loop either way that it covers
 
@@ -114,8 +114,8 @@ struct PairDensity {
   double rest = 0;   // a bound on the share of what was not resolved
 };
 
-/// Spreads from the peaks, the likeliest first. `excess`: by how much the rows are off more than their noise.
-/// `corner_length`: what a radian of pivoting counts as, length, of each finger.
+/// Spreads from the peaks. `excess`: Fit::widened; log-likelihoods are divided by its square. `corner_length`: what a
+/// radian of pivoting counts as, length, of each finger.
 PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& peaks, const std::vector<PairNode>& nodes,
                          double excess, const std::array<double, 2>& corner_length);
 

@@ -13,6 +13,11 @@
 //   f               Theta(s + (La + n_a0) / (1 + eps_a)) - Theta(t + (Lb + n_b0) / (1 + eps_b)) - C
 //   H, df/dw        `by_errors`, `by_start`
 //   q               the centres of the fingers in the part's frame
+//   Y               what a felt normal tells of Theta, with mean and variance over the contact's error: Felt
+//   c_k, S          pivots: what node k is off by per unit of the one unknown angle, and their sum: `pivots_of`
+// Follows docs/two_fingers.md, "The errors", and of centres docs/belief.md, "Centres as evidence".
+// Idea: each node is one equation f = 0, or three with centres, linear in x and w about a point. Its variance is that
+// of the row on its own. A pivot at a corner, which neighbouring nodes share, enters as a larger error of each.
 namespace rollfix::belief {
 
 namespace {
@@ -24,12 +29,12 @@ constexpr double kLeastOwn = 1e-6;
 
 /// One finger's contact in a row, and how that changes with where it is.
 struct ContactThen {
-  double s = 0;
+  double s = 0;               // arc length, unwrapped
   double angle = 0;           // of the tangent, as the normal tells it
   double slope = 0;           // of that by the place where it was felt
   double angle_by_start = 0;  // by w
-  double s_by_start = 0;
-  double s_by_offset = 0;  // by the shared error of the length
+  double s_by_start = 0;      // likewise: ds/dw at the first contact
+  double s_by_offset = 0;     // by the shared error of the length
   double s_by_scale = 0;
   double pivot = 0;        // variance of how far the finger has pivoted at a corner ...
   double pivot_alike = 0;  // ... and as much as counts, see pivots_of
@@ -49,6 +54,7 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
   for (const std::size_t finger : {0U, 1U}) {
     const ContactThen& contact = at[finger];
     const Vec2 tangent(std::cos(contact.angle), std::sin(contact.angle));
+    // The inward normal. An arm has its first coordinate along it, its second against the tangent.
     const Vec2 normal(-tangent.y(), tangent.x());
     const auto in_part = [&](const Vec2& arm) { return Vec2(arm.x() * normal - arm.y() * tangent); };
     const Vec2 arm = in_part(felt.arm[finger].at);
@@ -58,14 +64,17 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
     q_by_own[finger] = q_by_s[finger] + in_part(felt.arm[finger].per_length);
     q_by_start[finger] = contact.s_by_start * tangent - contact.angle_by_start * across[finger];
   }
+  // From a to b. Centres that nearly coincide have no direction: `distance` is bounded from below.
   const Vec2 way = q[1] - q[0];
   const double distance = std::max(way.norm(), kLeastDistance * errors.perimeter());
   const Vec2 along = way / distance;
   const Vec2 turning(-along.y() / distance, along.x() / distance);
+  // f_1: the distance. f_2: the direction less the middle of both normals, each Theta + pi/2, up to half turns.
   rows.f[1] = way.norm() - felt.distance;
   const double direction = std::atan2(way.y(), way.x()) - kHalfTurn / 2 - 0.5 * (at[0].angle + at[1].angle);
   const double off = direction - felt.direction;
   rows.f[2] = off - kHalfTurn * std::floor(off / kHalfTurn + 0.5);
+  // Errors of both centres along the chord, and across it over its length; of the normals' mean half of one's.
   const double position = 2 * errors.centre_variance() / std::max(1.0, node.rows);
   rows.variance(1, 1) += position;
   rows.variance(2, 2) += position / (distance * distance) + 0.5 * errors.angle_variance() / std::max(1e-6, node.rows);
@@ -76,11 +85,13 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
     const double sign = finger == 0 ? -1 : 1;
     const ContactThen& contact = at[finger];
     const double felt_slope = contact.slope + errors.normal_turn(finger);
+    // By the row's own error n of this contact: of f_0, f_1 and f_2. The felt normal turns by Y' + 1/r.
     by_own.col(i) << -sign * felt_slope, sign * along.dot(q_by_own[finger]),
         sign * turning.dot(q_by_own[finger]) - 0.5 * felt_slope;
     by_pivot.col(i) << -sign, -sign * along.dot(across[finger]), -sign * turning.dot(across[finger]) - 0.5;
     rows.by_start(1, i) = sign * along.dot(q_by_start[finger]);
     rows.by_start(2, i) = sign * turning.dot(q_by_start[finger]) - 0.5 * contact.angle_by_start;
+    // By where the contact is: of f_1 and f_2. Errors that the roll shares act through it.
     const Eigen::Vector2d by_s(sign * along.dot(q_by_s[finger]),
                                sign * turning.dot(q_by_s[finger]) - 0.5 * contact.slope);
     rows.by_errors.col(i).tail<2>() = by_s * contact.s_by_offset;
@@ -124,6 +135,7 @@ double pivot_at(const PairModel& model, std::size_t finger, double s) {
 
 }  // namespace
 
+/// Theta = w - c s and dTheta/dw = 1 - c m at both first contacts; in a corner 1.
 StartPlaces places_of(const PairModel& model, const PairStart& start) {
   StartPlaces places;
   for (const std::size_t finger : {0U, 1U}) {
@@ -135,6 +147,8 @@ StartPlaces places_of(const PairModel& model, const PairStart& start) {
   return places;
 }
 
+/// f = Theta(s) - Theta(t) - C. The first contacts are s and t themselves: n_a0 and n_b0 enter by the felt normals
+/// and, with centres, by the arms.
 template <int N>
 PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at, const PairNode& node,
                                   const PairShared& x) {
@@ -160,6 +174,8 @@ PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at,
   return rows;
 }
 
+/// f_k of docs/two_fingers.md with Theta replaced by what the felt normals tell, E Y. With the facing f is 0 up to
+/// whole turns; without it f is the change since the first contacts: eqs. (8) and (9).
 template <int N>
 PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
                                const Alike& alike) {
@@ -173,6 +189,7 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
   for (const std::size_t finger : {0U, 1U}) {
     const auto i = static_cast<Eigen::Index>(finger);
     const double sign = finger == 0 ? 1 : -1;
+    // The true length, by the shared errors, and where that leads.
     const double per_scale = 1 / (1 + x[2 + i]);
     const double length = (node.length[finger] + x[i]) * per_scale;
     const double s = at.place[finger].s + length;
@@ -187,14 +204,19 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
                         0,
                         0};
     f += sign * felt.angle;  // f_k of docs/two_fingers.md; its differences are eqs. (8), (9)
+    // d/dn_0 = Y' / (1 + eps), d/deps = -Y' L / (1 + eps), d/dw = Y' ds/dw, L being the true length.
     rows.by_errors(0, i) = sign * felt.slope * per_scale;
     rows.by_errors(0, 2 + i) = -rows.by_errors(0, i) * length;
     rows.by_start(0, i) = sign * felt.slope * at.place[finger].slope;
+    // In a run of nodes at one corner a finger that slips counts as pivoting wherever it may have slipped to the
+    // corner.
     const double pivot = alike[finger] > 1 ? pivot_at(model, finger, s) : felt.pivot;
     contacts[finger].pivot = pivot;
     contacts[finger].pivot_alike = alike[finger] * pivot;
+    // What is a row's own is averaged over the node's rows; the pivot is not, and counts for all nodes of the run.
     variance += felt.variance - felt.pivot;
     pivots_alike += alike[finger] * pivot;
+    // Past an open outline's end: no boundary is there, which costs as much as it is off.
     if (!model.places.closed) {
       const double end = s < 0.5 * errors.perimeter() ? -1 : 1;
       const double past = end < 0 ? -s : s - errors.perimeter();
@@ -223,6 +245,7 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
 
 std::vector<Alike> pivots_of(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,
                              const PairShared& x) {
+  // Nodes away from corners share nothing: 1.
   std::vector<Alike> alike(nodes.size(), Alike{1, 1});
   std::vector<double> off(nodes.size());
   for (const std::size_t finger : {0U, 1U}) {
@@ -232,6 +255,7 @@ std::vector<Alike> pivots_of(const PairModel& model, const StartPlaces& at, cons
     std::size_t begin = 0;
     double sum = 0;
     std::optional<double> corner;
+    // A run of nodes at one corner is over: each gets S / c_k, c_k being `off`, S their `sum`.
     const auto end_run = [&](std::size_t end) {
       for (std::size_t k = begin; corner && k < end; ++k) {
         if (off[k] > 0) alike[k][finger] = sum / off[k];
@@ -243,6 +267,7 @@ std::vector<Alike> pivots_of(const PairModel& model, const StartPlaces& at, cons
       const double length = (nodes[k].length[finger] + x[i]) / (1 + x[2 + i]);
       const double s = at.place[finger].s + length;
       const std::optional<double> here = felt.corner_at(s);
+      // The same corner on the same lap as in the node before.
       const bool goes_on = here && corner && std::abs(*here - *corner) < 0.5 * model.errors->contact_sd();
       if (!goes_on) end_run(k);
       corner = here;

@@ -37,6 +37,7 @@ class LogSum {
  public:
   void add(double factor) {
     product_ *= factor;
+    // As long as it is far from overflow and underflow.
     if (product_ > 1e-200 && product_ < 1e200) return;
     sum_ += std::log(product_);
     product_ = 1;
@@ -51,6 +52,7 @@ class LogSum {
 /// A Kalman filter of the shared errors that goes through the rows.
 class PairPass {
  public:
+  /// Begins with P0. `guess`: x to linearise about. Innovations are kept where the model asks for them.
   PairPass(const PairModel& model, const StartPlaces& at, const PairShared& guess)
       : model_(model), at_(at), guess_(guess) {
     score_.covariance = model.errors->start();
@@ -61,6 +63,7 @@ class PairPass {
     }
   }
 
+  /// Predict: what has gathered since the node before. Then correct, by one equation or three.
   void take(const PairNode& node, const Alike& alike) {
     if (model_.errors->drifts()) {
       const PairShared gathered = model_.errors->gathered(node.gathered, node.travelled);
@@ -74,6 +77,7 @@ class PairPass {
     }
   }
 
+  /// After all nodes; the direct cost gets that of the guess itself, by its prior.
   PairScore score() {
     score_.log_volume += volume_.value();
     score_.log_gathered = gathered_.value();
@@ -85,32 +89,38 @@ class PairPass {
   }
 
  private:
+  /// Correct: cost, volume, x, P and their derivatives by w; the steps are those of RollFilter::absorb.
   template <int N>
   void absorb(const PairNode& node, const Alike& alike) {
     const PairShared about = linearised_about();
     const PairEquations<N> rows = node.is_facing ? facing_equations<N>(model_, at_, node, about)
                                                  : row_equations<N>(model_, at_, node, about, alike);
+    // P H^T, S^-1 and the innovation at the filter's estimate; its derivative by w with x moving along.
     const Eigen::Matrix<double, 5, N> of_errors = score_.covariance * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> own = rows.variance;
     const Eigen::Matrix<double, N, N> inverse = (own + rows.by_errors * of_errors).inverse();
     const Eigen::Matrix<double, N, 1> innovation = -(rows.f + rows.by_errors * (score_.errors - about));
     const Eigen::Matrix<double, N, 2> by_start = -(rows.by_start + rows.by_errors * score_.errors_by_start);
     const double squared = innovation.dot(inverse * innovation);
+    // 1 / det S.
     const double density = inverse.determinant();
     // As of one finger only what the rows share has a volume, see RollFilter::absorb.
     const Eigen::Matrix<double, 5, N> of_walk = walk_ * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
-    // Rows of a pivot tell next to nothing, neither by the turn nor by the centres. They cost what others do in the
-    // mean: else starts would be likelier the more rows they leave to pivots.
+    // Rows of a pivot tell very little, neither by the turn nor by the centres. They cost what other rows cost in the
+    // mean: else a start would be the likelier, the more rows it leaves to pivots. The trace is the share of the row's
+    // variance that is the pivot's, summed over its equations.
     const double untold = std::min(1.0, node.rows) * (own.inverse() * rows.pivots).trace();
     double weight = 1;
     if (model_.outlier_share > 0) {
+      // An outlier is even over all turns, with centres over a perimeter and all directions as well.
       const double range = N == 1 ? kTwoPi : kTwoPi * kTwoPi * model_.perimeter();
       const double flat = std::pow(kTwoPi, 0.5 * (N - 1));
       const Mixture mixture =
           mixture_of(model_.outlier_share, model_.outlier_share / range, peak_of(density) / flat, squared);
       weight = mixture.weight;
       score_.cost += mixture.cost;
+      // The volume: highest density by noise alone, without outliers, over the mixture's, squared.
       const double usual = peak_of(1 / noise.determinant()) / flat;
       score_.log_volume -= 2 * std::log(mixture.density / usual);
       score_.right_rows += N * weight;
@@ -122,6 +132,7 @@ class PairPass {
     score_.cost += weight * untold;
     score_.direct_cost += weight * untold;
     add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);
+    // With x fixed at the guess: what the row costs by its own variance.
     score_.direct_cost += rows.f.dot(own.inverse() * rows.f);
     const Eigen::Matrix<double, 5, N> gain = weight * of_errors * inverse;
     score_.slope -= weight * by_start.transpose() * (inverse * innovation);
@@ -142,6 +153,7 @@ class PairPass {
       }
     }
     if (!model_.errors->drifts()) return;
+    // The filter with K alone, for det S_w; without drift K is 0.
     walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
     gathered_.add(noise.determinant() / own.determinant());
   }
@@ -164,6 +176,7 @@ class PairPass {
   LogSum gathered_;
 };
 
+/// One pass through all nodes, about `guess`.
 PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,
                const PairShared& guess) {
   beat();
@@ -176,10 +189,12 @@ PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<
 /// How far the part's pose is from the prior's, in its deviations, for these first contacts.
 Eigen::Vector3d off_prior(const PairModel& model, const StartPlaces& at) {
   const PosePrior& prior = *model.pose;
+  // The heading by each finger's normal, and the mean of both.
   const double by_a = model.first[0].facing - kHalfTurn / 2 - at.angle[0];
   const double by_b = model.first[1].facing - kHalfTurn / 2 - at.angle[1];
   Pose pose;
   pose.heading = by_a + 0.5 * nearest_to_zero(by_b - by_a);
+  // The first contacts' own errors add to the prior's.
   const double heading_sd = std::hypot(prior.heading_sd, std::sqrt(0.5 * model.errors->angle_variance()));
   Eigen::Vector3d off(0, 0, nearest_to_zero(pose.heading - prior.mean.heading) / heading_sd);
   if (!std::isfinite(prior.place_sd)) return off;
@@ -192,6 +207,7 @@ Eigen::Vector3d off_prior(const PairModel& model, const StartPlaces& at) {
   return off;
 }
 
+/// The pose prior as one sample more; its derivatives by w from a small step of each.
 void add_pose_prior(const PairModel& model, const PairStart& start, const StartPlaces& at, PairScore& score) {
   const Eigen::Vector3d off = off_prior(model, at);
   Eigen::Matrix<double, 3, 2> by_start;
@@ -215,6 +231,7 @@ bool has_same_scales(const PairScore& score, const PairShared& guess) {
   return true;
 }
 
+/// Each shared error came out within kSameErrors of its standard deviation of where it was taken.
 bool is_about_same(const PairScore& score, const PairShared& guess, const PairErrors& errors) {
   for (Eigen::Index i = 0; i < 5; ++i) {
     const double off = score.errors[i] - guess[i];
@@ -225,6 +242,8 @@ bool is_about_same(const PairScore& score, const PairShared& guess, const PairEr
 
 }  // namespace
 
+/// One to `most_passes` passes, then the priors. In the first branch offsets are linearised as the filter goes, so that
+/// only the scales have to settle.
 PairScore score_of(const PairModel& model, const PairStart& start, const std::vector<PairNode>& nodes,
                    const PairShared& guess, int most_passes) {
   const StartPlaces at = places_of(model, start);

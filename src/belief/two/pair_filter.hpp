@@ -79,7 +79,7 @@ struct PairScore {
   double log_volume = 0;
   double log_gathered = 0;  // see RollFilter
   std::array<Whiteness, 3> whiteness;
-  double right_rows = 0;                                  // robust: that are not stray, ...
+  double right_rows = 0;                                  // robust: that are no outliers, ...
   double right_cost = 0;                                  // ... and their part of the cost
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();        // of the log-likelihood by (w_a, w_b), the volume's left out
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  // expected, by them

@@ -37,6 +37,7 @@ Eigen::Matrix2d information_of_gaps(const PairModel& model, const PairStart& sta
 
 }  // namespace
 
+/// The peak itself where no gap is wide, or where the middle is worse by kAsGood or more. `nodes`: all rows.
 PairPeak between_passings(const PairModel& model, const PairPeak& peak, const std::vector<PairNode>& nodes,
                           double heat) {
   PairStart start = peak.start;
@@ -45,8 +46,10 @@ PairPeak between_passings(const PairModel& model, const PairPeak& peak, const st
     const TiltedArc& arc = *start.arc[finger];
     const TiltedPlace place = arc.at(start.w[finger]);
     const Interval gap = model.passings[finger]->gap(place.s);
+    // A narrow gap has no flat middle; in a corner (slope 0) w does not move s.
     if (!(gap.width() > kWide * model.errors->contact_sd()) || !std::isfinite(gap.width()) || place.slope <= 0)
       continue;
+    // The middle of the gap, to first order in w.
     const double middle = start.w[finger] + (gap.middle() - place.s) / place.slope;
     if (middle > arc.lo() && middle < arc.hi()) start.w[finger] = middle;
   }
@@ -55,12 +58,14 @@ PairPeak between_passings(const PairModel& model, const PairPeak& peak, const st
   return (peak.score.log_likelihood() - found.score.log_likelihood()) / heat < kAsGood ? found : peak;
 }
 
+/// Columns are the axes of F + that of the gaps, each a standard deviation long (times `factor`), or `longest`.
 Eigen::Matrix2d frame_of(const PairModel& model, const PairPeak& peak, double heat, double factor) {
   const double longest = kLongestSquare * std::min(span(*peak.start.arc[0]), span(*peak.start.arc[1]));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat +
                                                               information_of_gaps(model, peak.start));
   Eigen::Matrix2d frame;
   for (const Eigen::Index i : {0, 1}) {
+    // Rounding may leave an eigenvalue below 0: nothing is known along it.
     const double precision = std::max(0.0, solver.eigenvalues()[i]);
     const double step = std::min(longest, precision > 0 ? factor / std::sqrt(precision) : longest);
     frame.col(i) = step * solver.eigenvectors().col(i);

@@ -19,7 +19,7 @@
 // Idea: from a peak squares spread to wherever the density is not negligible (exp(-`kNegligiblePair`) of the best), and
 // are quartered where d changes by more than `kFinePairStep`. A square's mass is summed over `kGrainsAcross`^2 points
 // of the quadratic with g and F at its centre. The rate of d is taken `kPairRateSafety` times as large: a safety
-// factor, no proof.
+// factor, not a proof.
 namespace rollfix::belief {
 
 namespace {
@@ -42,7 +42,7 @@ constexpr std::array<std::size_t, 3> kManySquares = {2500, 1500, 150};
 constexpr double kLargerSquares = 3;
 constexpr int kMostBeginnings = 4;
 constexpr double kOffTop = 4;
-// Wide peaks come first, but not those that next to nothing is at: of a peak's density this power counts.
+// Wide peaks come first, but not improbable ones: a peak's rank is its square's area times this power of its density.
 constexpr double kShareOfDensity = 0.5;
 // The middle of a square sees a passing from so many of its standard deviations.
 constexpr double kPassingWidth = 2;
@@ -53,12 +53,14 @@ constexpr int kPassingHalvings = 3;
 // A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
 constexpr double kForetold = 1;
 
+/// The whole square of a region's grid in which y lies: squares are centred at whole numbers.
 std::uint64_t square_key(const Eigen::Vector2d& y) {
   const auto i = static_cast<std::int32_t>(std::floor(y[0] + 0.5));
   const auto j = static_cast<std::int32_t>(std::floor(y[1] + 0.5));
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32) | static_cast<std::uint32_t>(j);
 }
 
+/// What the region's leaves hold, in units of the likeliest peak's density.
 double mass_of(const PairRegion& region) {
   double sum = 0;
   for (const PairLeaf& leaf : region.leaves) sum += leaf.share;
@@ -78,6 +80,7 @@ bool is_within(const PairStart& origin, const Eigen::Vector2d& by) {
   return true;
 }
 
+/// Spreads regions from peaks, one after the other, until the density is covered or the effort is used up.
 class Spreading {
  public:
   Spreading(const PairModel& model, const std::vector<PairNode>& nodes, double excess,
@@ -92,6 +95,7 @@ class Spreading {
         many_squares_(kManySquares[static_cast<std::size_t>(model.effort)]),
         density_(density) {}
 
+  /// Spreads a region from a peak, unless it is negligible or a region has it already.
   void from(const PairPeak& peak);
   void from(const PairStart& start);
   /// The peaks, those first that have the widest squares: these suit a ridge that leads to a sharper peak, and that
@@ -102,13 +106,14 @@ class Spreading {
 
  private:
   enum class Outcome { negligible, resolved, outside };
+  /// A square to look into, with a guess of the shared errors x there: linear in w about the square that it came from.
   struct Task {
     Eigen::Vector2d centre;
-    double size;
-    int depth;
+    double size;  // of its side
+    int depth;    // halvings so far
     PairShared guess;
-    Eigen::Vector2d guess_at;  // w from the origin, of the guess
-    Eigen::Matrix<double, 5, 2> by_start;
+    Eigen::Vector2d guess_at;              // w from the origin, of the guess
+    Eigen::Matrix<double, 5, 2> by_start;  // dx/dw
   };
 
   /// A peak, in a region's coordinates.
@@ -119,12 +124,15 @@ class Spreading {
 
   /// By a region that spread already.
   bool is_taken(const PairStart& start) const;
+  /// From the peak's square to its neighbours, as long as they hold anything.
   bool spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares);
+  /// The peaks within a region's reach.
   std::vector<Known> known_in(const PairRegion& region) const;
   /// Peaks in a square that its quadratic does not foretell are sharper than it is.
   bool foretells_peaks(const PairRegion& region, const PairLeaf& leaf) const;
   bool has_passings(const PairRegion& region, const PairLeaf& leaf) const;
   bool look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves);
+  /// Sums a leaf's mass over its grains.
   void weigh(const PairRegion& region, PairLeaf& leaf) const;
   double log_prior(const PairStart& start) const;
   bool is_negligible(const PairScore& score) const {
@@ -133,20 +141,21 @@ class Spreading {
 
   const PairModel& model_;
   const std::vector<PairNode>& nodes_;
-  double heat_;
+  double heat_;  // widened^2: log-likelihoods are divided by it
   std::array<double, 2> corner_length_;
-  double best_;
+  double best_;  // log-likelihood of the likeliest peak
   const std::vector<PairPeak>& peaks_;
-  std::vector<Known> known_;  // in the region that spreads
-  std::size_t most_hypotheses_;
-  std::size_t many_squares_;
+  std::vector<Known> known_;     // in the region that spreads
+  std::size_t most_hypotheses_;  // in all
+  std::size_t many_squares_;     // of one region, before it begins again with larger ones
   PairDensity& density_;
-  std::size_t hypotheses_ = 0;
-  std::size_t limit_ = 0;  // of them, with this region
-  double total_ = 0;
-  double unresolved_ = 0;
+  std::size_t hypotheses_ = 0;  // pairs that were scored so far
+  std::size_t limit_ = 0;       // of them, with this region
+  double total_ = 0;            // mass of all regions
+  double unresolved_ = 0;       // mass that is not known well; infinite: it may be any
 };
 
+/// The logarithm of ds dt by (w_a, w_b): ds/dw of each finger, in a corner its r.
 double Spreading::log_prior(const PairStart& start) const {
   double sum = 0;
   for (const std::size_t finger : {0U, 1U}) {
@@ -158,6 +167,7 @@ double Spreading::log_prior(const PairStart& start) const {
 
 void Spreading::weigh(const PairRegion& region, PairLeaf& leaf) const {
   const double step = leaf.size / kGrainsAcross;
+  // Of a grain, in (w_a, w_b).
   const double area = step * step * std::abs(region.frame.determinant());
   const double base = (leaf.score.log_likelihood() - best_) / heat_;
   for (int i = 0; i < kGrainsAcross; ++i) {
@@ -166,6 +176,7 @@ void Spreading::weigh(const PairRegion& region, PairLeaf& leaf) const {
       const Eigen::Vector2d by = region.frame * (leaf.centre + off);
       if (!is_within(region.origin, by)) continue;
       const Eigen::Vector2d from_centre = region.frame * off;
+      // log L by the quadratic of the leaf's centre: g d - d^T F d / 2.
       const double gain =
           leaf.score.slope.dot(from_centre) - 0.5 * from_centre.dot(leaf.score.information * from_centre);
       PairGrain grain;
@@ -174,6 +185,7 @@ void Spreading::weigh(const PairRegion& region, PairLeaf& leaf) const {
         const TiltedArc& arc = *region.origin.arc[finger];
         const double w = region.origin.w[finger] + by[static_cast<Eigen::Index>(finger)];
         const TiltedPlace place = arc.at(w);
+        // The prior at the grain itself.
         grain.share *= place.slope > 0 ? place.slope : corner_length_[finger];
         grain.s[finger] = place.s;
         grain.angle[finger] = w - model_.boundary[finger]->tilt() * place.s;
@@ -198,6 +210,7 @@ std::vector<Spreading::Known> Spreading::known_in(const PairRegion& region) cons
 bool Spreading::foretells_peaks(const PairRegion& region, const PairLeaf& leaf) const {
   return std::all_of(known_.begin(), known_.end(), [&](const Known& peak) {
     const Eigen::Vector2d off = peak.at - leaf.centre;
+    // A peak outside of the square.
     if (off.cwiseAbs().maxCoeff() > 0.5 * leaf.size) return true;
     const Eigen::Vector2d by = region.frame * off;
     const double foretold =
@@ -212,6 +225,7 @@ bool Spreading::has_passings(const PairRegion& region, const PairLeaf& leaf) con
     if (model_.passings[finger] == nullptr) continue;
     const TiltedPlace place = leaf.start.arc[finger]->at(leaf.start.w[finger]);
     const Eigen::RowVector2d along = region.frame.row(static_cast<Eigen::Index>(finger)) * place.slope;
+    // How far the square goes to either side along the boundary, to first order.
     const double reach = 0.5 * leaf.size * along.lpNorm<1>();
     if (reach > kPassingWidth * model_.passings[finger]->sharpest(place.s, kInside * reach)) return true;
   }
@@ -225,12 +239,15 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   leaf.centre = task.centre;
   leaf.size = task.size;
   leaf.start = moved(region.origin, by);
+  // A good guess saves passes.
   const PairShared guess = task.guess + task.by_start * (by - task.guess_at);
   leaf.score = score_of(model_, leaf.start, nodes_, guess, kPasses);
   ++hypotheses_;
   // No more than this can be in the square: the distance can't fall faster than it changes.
+  // The rate of d by y is at most the root of F's larger eigenvalue; the corners are size / sqrt(2) from the centre.
   const Eigen::Matrix2d information = region.frame.transpose() * leaf.score.information * region.frame;
   const double trace = information.trace();
+  // Difference of both eigenvalues.
   const double gap = std::hypot(information(0, 0) - information(1, 1), 2 * information(0, 1));
   const double rate = std::sqrt(std::max(0.0, 0.5 * (trace + gap)));
   const double reach = kPairRateSafety * rate * task.size * std::sqrt(0.5);
@@ -241,6 +258,7 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   // At passings it may change by any amount, which the middle does not see.
   const bool has_jump = task.depth < kPassingHalvings && !is_negligible(leaf.score) && has_passings(region, leaf);
   const bool is_fine = foretells && !has_jump && rate * task.size <= kFinePairStep * std::sqrt(heat_);
+  // Quarters, unless the effort or the depth is used up. Then the square is a leaf as it is, and unresolved.
   if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < limit_) {
     bool matters = false;
     for (const double x : {-0.25, 0.25}) {
@@ -271,6 +289,7 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
 /// False where there are too many squares.
 bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares) {
   known_ = known_in(region);
+  // Breadth first: squares in the order of their distance from the peak. `seen` has every square that was considered.
   std::deque<Task> tasks;
   std::unordered_map<std::uint64_t, bool> seen;
   tasks.push_back(
@@ -287,7 +306,9 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
     std::vector<std::size_t> leaves;
     const bool matters = look_into(region, task, leaves);
     if (leaves.empty() || !matters) continue;
+    // Too small squares: the caller begins again with larger ones.
     if (region.leaves_of.size() >= most_squares) return false;
+    // Neighbours guess x from this square.
     const PairScore& score = region.leaves[leaves.front()].score;
     const Eigen::Vector2d at = region.frame * region.leaves[leaves.front()].centre;
     region.leaves_of[square_key(task.centre)] = std::move(leaves);
@@ -313,6 +334,7 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
 std::vector<PairPeak> Spreading::widest_first() const {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < peaks_.size(); ++k) {
+    // The area of a square beside the density of its peak: wide and likely ones first.
     const double log_area = std::log(std::abs(frame_of(model_, peaks_[k], heat_).determinant()));
     const double log_density = (peaks_[k].score.log_likelihood() - best_) / heat_;
     order.emplace_back(-log_area - kShareOfDensity * log_density, k);
@@ -336,6 +358,7 @@ void Spreading::from(const PairPeak& peak) {
   // One that is off its hill's top may still lead to it.
   if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair || is_taken(peak.start)) return;
   const PairPeak middle = between_passings(model_, peak, nodes_, heat_);
+  // A middle that another region has does not serve.
   const PairPeak& begin = is_taken(middle.start) ? peak : middle;
   // No region takes what others need.
   limit_ = hypotheses_ + (most_hypotheses_ - std::min(hypotheses_, most_hypotheses_)) / 2;
@@ -345,7 +368,7 @@ void Spreading::from(const PairPeak& peak) {
     region.origin = begin.start;
     region.frame = frame_of(model_, begin, heat_, factor);
     region.back = region.frame.inverse();
-    if (!region.back.allFinite()) {  // rows that contradict the noise by far: how wide it is can't be said
+    if (!region.back.allFinite()) {  // rows far off the noise: its width can't be computed
       unresolved_ = std::numeric_limits<double>::infinity();
       return;
     }
@@ -354,10 +377,12 @@ void Spreading::from(const PairPeak& peak) {
     }
     const double unresolved = unresolved_;
     const bool is_last = beginning + 1 == kMostBeginnings;
+    // Too many squares: begun again, and what was not resolved is forgotten.
     if (!spread(region, begin, is_last ? most_hypotheses_ : many_squares_)) {
       unresolved_ = unresolved;
       continue;
     }
+    // Nothing that counts, even at the peak.
     if (region.leaves.empty()) return;
     total_ += mass_of(region);
     density_.regions.push_back(std::move(region));
@@ -367,6 +392,7 @@ void Spreading::from(const PairPeak& peak) {
 
 }  // namespace
 
+/// The leaves of a whole square lie side by side: one of them has y, unless it is negligible there.
 std::size_t PairRegion::leaf_at(const Eigen::Vector2d& y) const {
   const auto found = leaves_of.find(square_key(y));
   if (found == leaves_of.end()) return leaves.size();
@@ -376,6 +402,7 @@ std::size_t PairRegion::leaf_at(const Eigen::Vector2d& y) const {
   return leaves.size();
 }
 
+/// Around a loop the shorter way. Nothing on another arc, or further than half a loop or an arc's end.
 std::optional<Eigen::Vector2d> PairRegion::off_origin(const PairStart& start) const {
   if (start.arc != origin.arc) return std::nullopt;
   Eigen::Vector2d by;
@@ -388,11 +415,13 @@ std::optional<Eigen::Vector2d> PairRegion::off_origin(const PairStart& start) co
   return by;
 }
 
+/// Whether the start is in one of the region's whole squares that hold anything.
 bool PairRegion::covers(const PairStart& start) const {
   const auto by = off_origin(start);
   return by && leaves_of.count(square_key(back * *by)) > 0;
 }
 
+/// Regions from the peaks, the widest first, then those that go on beyond half a loop; at the end shares add up to 1.
 PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& peaks, const std::vector<PairNode>& nodes,
                          double excess, const std::array<double, 2>& corner_length) {
   PairDensity density;
@@ -406,7 +435,7 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
     for (const PairStart& start : beyond) spreading.from(start);
   }
   const double total = spreading.total();
-  // Next to nothing about any peak, as of rows that contradict the noise by far: nothing is known then.
+  // No mass about any peak, as where rows are far off the noise: nothing is known then.
   if (!(total > 0)) {
     density.regions.clear();
     density.rest = 1;

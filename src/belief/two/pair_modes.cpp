@@ -22,7 +22,8 @@ namespace rollfix::belief {
 
 namespace {
 
-/// Leaves of one region beside this one: what lies just across its sides.
+/// Leaves of one region beside this one: four points just across each side find them, down to a quarter of its size.
+/// A leaf may be found several times.
 std::vector<std::size_t> beside(const PairRegion& region, const PairLeaf& leaf) {
   std::vector<std::size_t> found;
   for (const double along : {-0.375, -0.125, 0.125, 0.375}) {
@@ -41,11 +42,14 @@ std::vector<std::size_t> tops_of(const PairRegion& region) {
   const std::size_t count = region.leaves.size();
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
+  // Heights are log densities by (w_a, w_b), with the prior on the boundary.
   const auto height = [&](std::size_t k) { return region.leaves[k].log_density; };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+  // Union-find: `up` leads to the top; `count` means that the leaf is still under water.
   std::vector<std::size_t> up(count, count);
   const auto top = [&](std::size_t k) {
     while (up[k] != k) {
+      // Path halving: later walks are shorter.
       up[k] = up[up[k]];
       k = up[k];
     }
@@ -56,15 +60,18 @@ std::vector<std::size_t> tops_of(const PairRegion& region) {
     up[k] = k;
     std::size_t highest = k;
     const std::vector<std::size_t> neighbours = beside(region, region.leaves[k]);
+    // The highest hill that this leaf touches, if there is one: the leaf joins it.
     for (const std::size_t other : neighbours) {
       if (up[other] == count) continue;
       if (highest == k || height(top(other)) > height(highest)) highest = top(other);
     }
+    // A new peak.
     if (highest == k) continue;
     up[k] = highest;
     for (const std::size_t other : neighbours) {
       if (up[other] == count || other == k) continue;
       const std::size_t peak = top(other);
+      // Here two hills meet, at this height: the lower one joins where its peak is less than kValley above.
       if (peak != highest && height(peak) - height(k) < kValley) up[peak] = highest;
     }
   }
@@ -88,6 +95,7 @@ double quantile(const std::vector<Grain>& grains, double mass) {
   double before = 0;
   double share = 0;
   for (std::size_t k = 0; k < grains.size(); ++k) {
+    // Grains at one place count as one: their shares wait for the next that lies further on.
     share += grains[k].share;
     const double end = k + 1 < grains.size() ? 0.5 * (grains[k].s + grains[k + 1].s) : most;
     if (end <= begin) continue;  // several at one place
@@ -99,17 +107,21 @@ double quantile(const std::vector<Grain>& grains, double mass) {
 }
 
 /// Leaves of a hill, weighed.
+/// One mode, made from the leaves of its hill.
 class PairHill {
  public:
   PairHill(const PairRegion& region, std::vector<std::size_t> leaves, const PairModel& model, const Reading& last)
       : region_(&region), leaves_(std::move(leaves)), model_(&model), last_(last.length) {}
 
+  /// Of both first contacts being in here.
   double probability() const {
     double sum = 0;
     for (const std::size_t k : leaves_) sum += region_->leaves[k].share;
     return sum;
   }
 
+  /// See Mode. `start` is the peak of the best leaf's quadratic; if an interval leaves it out, what is nearest to the
+  /// mean.
   Mode mode() const {
     Mode mode = empty_mode();
     mode.probability = probability();
@@ -128,6 +140,7 @@ class PairHill {
     return mode;
   }
 
+  /// The grains that hold anything, with what their leaf knows of the first contacts' slide.
   std::vector<Piece> pieces() const {
     const auto counts = [](const PairGrain& grain) { return grain.share > kLeastShare; };
     std::ptrdiff_t count = 0;  // of a continuum hundreds of thousands, so that no room is made for more
@@ -160,6 +173,7 @@ class PairHill {
         double off = 0;
         bool is_inside = true;
         for (const std::size_t finger : {0U, 1U}) {
+          // How far the grain is from the mean, both fingers, squared; it must lie in both intervals.
           const double at = model_->places.on_first_lap(grain.s[finger]);
           off += square(model_->places.offset(mode.mean[finger], at));
           is_inside = is_inside && model_->places.contains(mode.interval[finger], at);
@@ -170,6 +184,7 @@ class PairHill {
         middle = &grain;
       }
     }
+    // No grain lies in both intervals: the peak stays.
     if (middle == nullptr) return mode;
     for (const std::size_t finger : {0U, 1U}) {
       mode.start[finger] = model_->places.on_first_lap(middle->s[finger]);
@@ -189,6 +204,7 @@ class PairHill {
     return mode;
   }
 
+  /// The likeliest leaf, the prior on the boundary left out.
   const PairLeaf& peak() const {
     std::size_t best = leaves_.front();
     for (const std::size_t k : leaves_) {
@@ -200,8 +216,10 @@ class PairHill {
   /// One step of Newton's method, no further than the leaf goes.
   Eigen::Vector2d step_to_peak(const PairLeaf& leaf) const {
     const Eigen::Matrix2d information = region_->frame.transpose() * leaf.score.information * region_->frame;
+    // In the region's coordinates, in which the leaf is a square.
     const Eigen::Vector2d slope = region_->frame.transpose() * leaf.score.slope;
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
+    // Where a direction is not known at all, the matrix stays regular.
     const Eigen::Matrix2d ridged = information + 1e-9 * (information.trace() + 1e-300) * Eigen::Matrix2d::Identity();
     step = ridged.inverse() * slope;
     const double most = step.cwiseAbs().maxCoeff();
@@ -210,6 +228,7 @@ class PairHill {
     return region_->frame * step;
   }
 
+  /// True length of the last row, by the shared errors that the leaf estimates.
   double rolled(const PairLeaf& leaf, std::size_t finger) const {
     const auto i = static_cast<Eigen::Index>(finger);
     return (last_[finger] + leaf.score.errors[i]) / (1 + leaf.score.errors[2 + i]);
@@ -219,12 +238,14 @@ class PairHill {
   std::array<double, 2> half_of_grains(const PairLeaf& leaf) const {
     std::array<double, 2> half{};
     for (const std::size_t finger : {0U, 1U}) {
+      // A grain's half width in w, then along the boundary.
       const double along = region_->frame.row(static_cast<Eigen::Index>(finger)).cwiseAbs().sum();
       half[finger] = 0.5 * leaf.size / kGrainsAcross * along * leaf.start.arc[finger]->at(leaf.start.w[finger]).slope;
     }
     return half;
   }
 
+  /// The variance of that, from offset and scale, and the row's own contact. To first order; length^2.
   double variance_rolled(const PairLeaf& leaf, std::size_t finger) const {
     const auto i = static_cast<Eigen::Index>(finger);
     const double length = rolled(leaf, finger);
@@ -233,6 +254,7 @@ class PairHill {
            model_->errors->contact_variance();
   }
 
+  /// Means, covariance and intervals of both first contacts, and of the contacts now, as sums over grains.
   void add_spread(Mode& mode) const {
     double total = 0;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -244,12 +266,14 @@ class PairHill {
       const PairLeaf& leaf = region_->leaves[k];
       const std::array<double, 2> half = half_of_grains(leaf);
       for (const PairGrain& grain : leaf.grains) {
+        // Places are counted from the region's origin, unwrapped.
         Eigen::Vector2d off;
         for (const std::size_t finger : {0U, 1U}) {
           const auto i = static_cast<Eigen::Index>(finger);
           off[i] = grain.s[finger] - region_->origin_s[finger];
           const double end = off[i] + rolled(leaf, finger);
           end_sum[i] += grain.share * end;
+          // An end is as uncertain as its start, and by the variance of the roll.
           end_squares[i] += grain.share * (end * end + variance_rolled(leaf, finger));
           grains[finger].push_back({off[i], half[finger], grain.share});
         }
@@ -272,6 +296,7 @@ class PairHill {
       std::sort(of_finger.begin(), of_finger.end(), [](const Grain& a, const Grain& b) { return a.s < b.s; });
       const auto as_interval = [&](double lo, double hi) {
         const double at = model_->places.on_first_lap(origin + lo);
+        // No interval is longer than once around.
         return Interval{at, at + std::min(hi - lo, model_->perimeter())};
       };
       mode.interval[finger] = as_interval(quantile(of_finger, 0.5 * (1 - kCredible) * total),
@@ -283,12 +308,13 @@ class PairHill {
   const PairRegion* region_;
   std::vector<std::size_t> leaves_;
   const PairModel* model_;
-  PerFinger<double> last_;
+  PerFinger<double> last_;  // lengths of the last row
 };
 
 /// In the order of their tops.
 std::vector<PairHill> hills_of(const PairRegion& region, const PairModel& model, const Reading& last) {
   const std::vector<std::size_t> tops = tops_of(region);
+  // The order of a map does not depend on addresses: the same samples give the same bits.
   std::map<std::size_t, std::vector<std::size_t>> by_top;
   for (std::size_t k = 0; k < tops.size(); ++k) by_top[tops[k]].push_back(k);
   std::vector<PairHill> hills;

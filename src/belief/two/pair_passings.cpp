@@ -16,10 +16,13 @@
 // sides the likelihood is constant; at each it changes, within the passing's standard deviation.
 namespace rollfix::belief {
 
+/// A pivot that is smaller is lost in the errors of both orientations.
 bool is_felt(const PairModel& model, const Corner& corner) {
   return corner.turn > kFarthest * std::sqrt(model.errors->facing_variance());
 }
 
+/// Of each node and each corner c that is felt, and both ends of an open outline: s = c - L, on the first lap. `nodes`:
+/// the facing has no length and is left out.
 Passings::Passings(const PairModel& model, std::size_t finger, const std::vector<PairNode>& nodes)
     : boundary_(model.places) {
   std::vector<double> places;
@@ -32,6 +35,8 @@ Passings::Passings(const PairModel& model, std::size_t finger, const std::vector
   double gathered = 0;
   for (const PairNode& node : nodes) {
     if (node.is_facing) continue;
+    // What has gathered by this node, with the first contact's error, the scale's times L, and the node's own:
+    // length^2.
     gathered += errors.gathered(node.gathered, node.travelled)[i];
     const double length = node.length[finger];
     const double sd = std::sqrt(errors.contact_variance() / std::max(1.0, node.rows) + errors.start()(i, i) + gathered +
@@ -41,6 +46,7 @@ Passings::Passings(const PairModel& model, std::size_t finger, const std::vector
   std::sort(passings_.begin(), passings_.end(), [](const Passing& a, const Passing& b) { return a.s < b.s; });
 }
 
+/// By bisection: lo <= s < hi.
 std::span<const Passing> Passings::between(double lo, double hi) const {
   const auto at_or_after = [&](double s) {
     return std::lower_bound(passings_.begin(), passings_.end(), s,
@@ -49,6 +55,7 @@ std::span<const Passing> Passings::between(double lo, double hi) const {
   return {at_or_after(lo), at_or_after(hi)};
 }
 
+/// On a closed outline also across the seam, a lap back and a lap on.
 double Passings::sharpest(double s, double reach) const {
   double least = std::numeric_limits<double>::infinity();
   const double at = boundary_.on_first_lap(s);
@@ -60,6 +67,8 @@ double Passings::sharpest(double s, double reach) const {
   return least;
 }
 
+/// The neighbours of s on the first lap, the last one before the seam and the first one after it included, shifted to
+/// the lap of s.
 Interval Passings::gap(double s) const {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   if (passings_.empty()) return {-kInfinite, kInfinite};

@@ -25,6 +25,7 @@ PairCentres mean_of(const PairCentres& a, double rows_of_a, const PairCentres& b
   const double of_b = rows_of_b / (rows_of_a + rows_of_b);
   PairCentres mean;
   mean.distance = of_a * a.distance + of_b * b.distance;
+  // Directions are known up to half turns: b's is taken near a's.
   mean.direction = of_a * a.direction + of_b * brought_near(b.direction, a.direction);
   for (const std::size_t finger : {0U, 1U}) {
     mean.arm[finger].at = of_a * a.arm[finger].at + of_b * b.arm[finger].at;
@@ -51,6 +52,7 @@ PairRows::Block PairRows::block_of(std::size_t begin, std::size_t end, std::size
   Block block;
   block.rows = end - begin;
   for (std::size_t from = begin; from < end; from += of_median) {
+    // One median of `of_median` rows, the last one of fewer.
     const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(from);
     const auto last = rows_.begin() + static_cast<std::ptrdiff_t>(std::min(end, from + of_median));
     const Reading middle = median_of({first, last});
@@ -58,6 +60,7 @@ PairRows::Block PairRows::block_of(std::size_t begin, std::size_t end, std::size
     block.turn += middle.turn;
     block.medians += 1;
   }
+  // Centres are averaged row by row, without medians.
   if (!have_centres()) return block;
   block.centres = centres_[begin];
   for (std::size_t k = begin + 1; k < end; ++k) {
@@ -66,14 +69,17 @@ PairRows::Block PairRows::block_of(std::size_t begin, std::size_t end, std::size
   return block;
 }
 
+/// Constant memory: rows, then units of kRowsOfUnit, then blocks; where there are too many of one they become the next.
 void PairRows::add(const Reading& row, const std::optional<PairCentres>& centres) {
   if (rows_of_block_ == 0 && size_ == kMostRows) condense();
+  // Only when nothing is half filled: all blocks stay of the same number of rows.
   if (blocks_.size() == kMostNodes && open_.rows == 0 && rows_.empty()) halve();
   rows_.push_back(row);
   if (centres) centres_.push_back(*centres);
   with_centres_ += centres ? 1 : 0;
   last_ = row;
   ++size_;
+  // All rows are kept, or the unit is not full.
   if (rows_of_block_ == 0 || rows_.size() < kRowsOfUnit) return;
   open_ = joined(open_, block_of(0, kRowsOfUnit, rows_of_median(robust_, kRowsOfUnit)));
   rows_.clear();
@@ -101,11 +107,13 @@ void PairRows::halve() {
 std::vector<PairRows::Block> PairRows::blocks() const {
   std::vector<Block> all = blocks_;
   if (rows_of_block_ > 0) {
+    // What is not a block yet is one of fewer rows.
     Block last = open_;
     if (!rows_.empty()) last = joined(last, block_of(0, rows_.size(), rows_of_median(robust_, kRowsOfUnit)));
     if (last.rows > 0) all.push_back(last);
     return all;
   }
+  // All rows are kept: blocks of as many as leave kMostNodes at most.
   std::size_t stride = 1;
   while (stride * kMostNodes < rows_.size()) stride *= 2;
   for (std::size_t begin = 0; begin < rows_.size(); begin += stride) {
@@ -117,6 +125,7 @@ std::vector<PairRows::Block> PairRows::blocks() const {
 /// Of both lengths, of the turn and, where they are looked at, of the centres' distance and direction.
 std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const PairErrors& errors) const {
   const double contact = errors.contact_sd();
+  // A row's turn is off by both orientations and, with u, by both contacts' errors through 1/r.
   const double turn =
       std::hypot(std::sqrt(errors.turn_variance()), contact * errors.normal_turn(0), contact * errors.normal_turn(1));
   std::vector<Course> courses{{{}, contact}, {{}, contact}, {{}, turn}};
@@ -127,6 +136,7 @@ std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const
   if (have_centres() && errors.centre_variance() > 0) {
     const double distance = std::sqrt(2 * errors.centre_variance());
     courses.push_back({{}, distance});
+    // The direction turns with errors across the chord, and with the mean of both normals.
     courses.push_back({{}, std::hypot(distance / blocks.front().centres.distance, 0.5 * turn)});
     double last = blocks.front().centres.direction;
     for (const Block& block : blocks) {
@@ -136,6 +146,7 @@ std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const
     }
   }
   for (Course& course : courses) {
+    // Noise of the mean of a block.
     course.sd /= std::sqrt(static_cast<double>(blocks.front().rows));
     for (const Block& block : blocks) course.rows.push_back(static_cast<double>(block.rows));
   }
@@ -144,9 +155,12 @@ std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const
 
 /// As few blocks as even motion allows, each as it was in the middle of its rows.
 std::vector<PairRows::Block> PairRows::joined_where_even(std::vector<Block> blocks, const PairErrors& errors) const {
+  // Of outliers it is not known whether a motion is even; and few blocks are left as they are.
   if (robust_ || blocks.size() < 2 * kFewestMeans) return blocks;
+  // Rows that jump from one to the next by more than noise are no smooth motion.
   if (!std::ranges::all_of(courses_of(blocks, errors), is_even)) return blocks;
   const auto middles = [&](std::size_t lots) {
+    // Blocks are dealt out evenly: lots differ by one block at most.
     std::vector<Block> few(lots);
     for (std::size_t k = 0; k < lots; ++k) {
       for (std::size_t from = k * blocks.size() / lots; from < (k + 1) * blocks.size() / lots; ++from) {
@@ -164,13 +178,16 @@ std::optional<std::vector<PairRows::Block>> PairRows::middles_of(std::vector<Blo
   std::vector<std::vector<double>> middles;
   for (const Course& course : courses_of(means, errors)) {
     const auto of_course = at_middles(course);
+    // One uneven measurement is enough.
     if (!of_course) return std::nullopt;
     middles.push_back(*of_course);
   }
   for (std::size_t k = 0; k < means.size(); ++k) {
     Block& mean = means[k];
+    // Blocks hold sums over medians.
     for (const std::size_t finger : {0U, 1U}) mean.length[finger] = middles[finger][k] * mean.medians;
     mean.turn = middles[2][k] * mean.medians;
+    // No centres.
     if (middles.size() == 3) continue;
     mean.centres.distance = middles[3][k];
     mean.centres.direction = middles[4][k];
@@ -178,6 +195,8 @@ std::optional<std::vector<PairRows::Block>> PairRows::middles_of(std::vector<Blo
   return means;
 }
 
+/// The facing as a row of its own, then the means. With the facing each turn becomes absolute: Theta(s) - Theta(t)
+/// there.
 std::vector<PairNode> PairRows::nodes(const std::optional<double>& facing, const std::optional<PairCentres>& centres,
                                       const PairErrors& errors) const {
   std::vector<PairNode> nodes;
@@ -198,12 +217,14 @@ std::vector<PairNode> PairRows::nodes(const std::optional<double>& facing, const
     node.turn = block.turn / block.medians + lift;
     node.gathered = static_cast<double>(block.rows);
     for (const std::size_t finger : {0U, 1U}) {
+      // A mark is at the middle of its rows, by their number from 0 on.
       const double middle = 0.5 * static_cast<double>(2 * begin + block.rows - 1);
       const Travel::Mark mark{middle, node.length[finger], errors.contact_variance() / block.medians};
       node.travelled[finger] = travel[finger].add(mark);
     }
+    // By the finger that has travelled more.
     const double worth = errors.worth(std::max(node.travelled[0], node.travelled[1]), node.gathered);
-    // A median of rows on a slope is hardly better than one of them.
+    // Where rows lie on a slope their median is about as noisy as one of them: a block is worth its medians.
     node.rows = block.medians * worth / node.gathered;
     if (looks_at_centres) node.centres = block.centres;
     nodes.push_back(node);

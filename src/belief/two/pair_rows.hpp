@@ -26,7 +26,8 @@ class PairRows {
   /// Of every row so far.
   bool have_centres() const { return with_centres_ == size_; }
 
-  /// `facing`: the first contacts', then the first node, with their `centres`. `absolute`: see PairErrors.
+  /// All rows so far as nodes. `facing`: the first contacts'; where it is given it is the first node, with their
+  /// `centres`. `errors`: what is even motion, and what a row is worth.
   std::vector<PairNode> nodes(const std::optional<double>& facing, const std::optional<PairCentres>& centres,
                               const PairErrors& errors) const;
 
@@ -40,24 +41,28 @@ class PairRows {
     PairCentres centres{};  // mean, where they are looked at
   };
 
+  /// Both as one; the centres are means by the numbers of rows.
   static Block joined(const Block& a, const Block& b);
   Block block_of(std::size_t begin, std::size_t end, std::size_t of_median) const;
+  /// All rows so far as blocks of equally many; the last one may have fewer.
   std::vector<Block> blocks() const;
   std::vector<Course> courses_of(const std::vector<Block>& blocks, const PairErrors& errors) const;
   std::optional<std::vector<Block>> middles_of(std::vector<Block> means, const PairErrors& errors) const;
   std::vector<Block> joined_where_even(std::vector<Block> blocks, const PairErrors& errors) const;
+  /// From rows that are all kept to blocks of medians; from then on no row is kept longer than its unit fills.
   void condense();
+  /// Each two neighbouring blocks as one.
   void halve();
 
-  bool robust_;
-  std::size_t size_ = 0;
-  std::size_t with_centres_ = 0;
+  bool robust_;                   // see the constructor
+  std::size_t size_ = 0;          // rows so far
+  std::size_t with_centres_ = 0;  // of these, the rows with centres
   Reading last_;
-  std::vector<Reading> rows_;  // all of them, while they are few; then those that are in no block yet
-  std::vector<PairCentres> centres_;
-  std::vector<Block> blocks_;
-  Block open_;
-  std::size_t rows_of_block_ = 0;  // 0: there are no blocks yet
+  std::vector<Reading> rows_;         // all of them, while they are few; then those that are in no block yet
+  std::vector<PairCentres> centres_;  // of the rows in rows_
+  std::vector<Block> blocks_;         // complete ones
+  Block open_;                        // the one that is filling, of whole units
+  std::size_t rows_of_block_ = 0;     // 0: there are no blocks yet
 };
 
 }  // namespace rollfix::belief

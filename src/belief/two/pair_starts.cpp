@@ -57,12 +57,16 @@ constexpr double kWorthTrying = 80;
 // A pivot begins where the boundary before the corner ends, but for this share of the perimeter.
 constexpr double kBeforeCorner = 1e-9;
 
+/// -2 log L, up to what is the same everywhere.
 double deviance(const PairScore& score) { return score.cost + score.log_volume; }
 
+/// Levenberg's method from a pair, at most so many steps. The deviance never rises: a step that would raise it is not
+/// taken, and damping grows.
 PairPeak climb(const PairModel& model, PairPeak peak, const std::vector<PairNode>& nodes, int steps) {
   double damping = 1e-3;
   for (int k = 0; k < steps; ++k) {
     Eigen::Matrix2d information = peak.score.information;
+    // Where a direction is not known at all, the matrix stays regular.
     const double floor = 1e-9 * information.trace() + 1e-300;
     information(0, 0) += damping * information(0, 0) + floor;
     information(1, 1) += damping * information(1, 1) + floor;
@@ -77,6 +81,7 @@ PairPeak climb(const PairModel& model, PairPeak peak, const std::vector<PairNode
     const PairStart start = moved(peak.start, step);
     PairScore score = score_of(model, start, nodes, peak.score.errors, 2);
     if (deviance(score) <= deviance(peak.score)) {
+      // The step in standard deviations: below kSmallStep it is there.
       const double length = std::sqrt(std::max(0.0, step.dot(peak.score.information * step)));
       peak.start = start;
       peak.score = score;
@@ -90,12 +95,14 @@ PairPeak climb(const PairModel& model, PairPeak peak, const std::vector<PairNode
   return peak;
 }
 
+/// Pattern search along the axes of F: four directions, steps 1.5 times as long after a success and half after none.
 PairPeak search_around(const PairModel& model, PairPeak peak, const std::vector<PairNode>& nodes) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information);
   Eigen::Matrix2d frame;
   double longest = 1e300;
   for (const TiltedArc* arc : peak.start.arc) longest = std::min(longest, kLongestTrial * (arc->hi() - arc->lo()));
   for (const Eigen::Index i : {0, 1}) {
+    // A standard deviation each way, and no longer than kLongestTrial of an arc where F knows nothing.
     const double precision = std::max(1e-300, solver.eigenvalues()[i]);
     frame.col(i) = std::min(longest, 1 / std::sqrt(precision)) * solver.eigenvectors().col(i);
   }
@@ -117,11 +124,13 @@ PairPeak search_around(const PairModel& model, PairPeak peak, const std::vector<
   return peak;
 }
 
+/// The same rows by lengths and turns alone.
 std::vector<PairNode> without_centres(std::vector<PairNode> nodes) {
   for (PairNode& node : nodes) node.centres.reset();
   return nodes;
 }
 
+/// The likelier one is less.
 bool by_deviance(const PairPeak& one, const PairPeak& other) { return deviance(one.score) < deviance(other.score); }
 
 /// Where one first contact may be in a cell: a place on the boundary, or a corner at which the finger has pivoted by up
@@ -140,6 +149,7 @@ std::optional<Stand> stand_at(const PairModel& model, std::size_t finger, double
     // s grows with w: halve until w is found.
     double below = arc.lo();
     double above = arc.hi();
+    // How far s is ahead of the arc's start; beyond the arc's length it is on another one.
     const double end = arc.loop() ? lo + model.perimeter() : arc.at(arc.hi()).s;
     if (from_lo < 0 || from_lo > end - lo) continue;
     for (int k = 0; k < 40; ++k) {
@@ -158,6 +168,7 @@ class Stands {
   Stands(const PairModel& model, std::size_t finger, std::uint32_t cells, const Passings* passings)
       : model_(model), finger_(finger), step_(model.perimeter() / static_cast<double>(cells)), passings_(passings) {}
 
+  /// Computed once for each cell. Empty where no finger can be in it.
   const std::vector<Stand>& in(std::uint32_t cell) {
     const auto [found, is_new] = of_cell_.try_emplace(cell);
     if (is_new) add_places(cell, found->second);
@@ -172,6 +183,7 @@ class Stands {
     }
     for (const Corner& corner : model_.part->corners()) {
       if (corner.s < from || corner.s >= from + step_ || !is_felt(model_, corner)) continue;
+      // Just before the corner w is that of a pivot that begins; it goes on for `corner.turn`.
       auto pivot = stand_at(model_, finger_, corner.s - kBeforeCorner * model_.perimeter());
       if (!pivot) continue;
       pivot->pivot = corner.turn;
@@ -189,6 +201,7 @@ class Stands {
     for (auto next = passings.begin(); next != passings.end();) {
       const double first = next->s;
       double last = first;
+      // Passings nearer together than kWide of their standard deviations are one group.
       while (++next != passings.end() && next->s - last < kWide * next->sd) last = next->s;
       middles.push_back(0.5 * (begin + first));
       middles.push_back(0.5 * (first + last));
@@ -200,7 +213,7 @@ class Stands {
 
   const PairModel& model_;
   std::size_t finger_;
-  double step_;
+  double step_;               // length of a cell
   const Passings* passings_;  // none: nullptr
   std::unordered_map<std::uint32_t, std::vector<Stand>> of_cell_;
 };
@@ -217,9 +230,11 @@ PairStart faced(const PairModel& model, const std::array<Stand, 2>& stands, cons
   for (const std::size_t finger : {0U, 1U}) {
     const Stand& stand = stands[finger];
     if (!(stand.pivot > 0)) continue;
+    // Theta = w - c s as far as the finger has pivoted by now.
     const auto tangent = [&](std::size_t k) {
       return start.w[k] - model.boundary[k]->tilt() * start.arc[k]->at(start.w[k]).s;
     };
+    // At a corner w and Theta grow alike: the whole difference is pivoted, as far as the corner turns.
     const double off = std::remainder(tangent(0) - tangent(1) - first.turn, kFullTurn);
     start.w[finger] = std::clamp(start.w[finger] + (finger == 0 ? -off : off), stand.w, stand.w + stand.pivot);
   }
@@ -238,6 +253,7 @@ std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candi
       for (const Stand& b : of_b.in(candidates.squares[k].j)) {
         const PairStart start = faced(model, {a, b}, nodes.front());
         const PairScore score = score_of(model, start, nodes, PairShared::Zero(), 1);
+        // Of all stands in a square the likeliest pair is kept.
         if (best.start.arc[0] == nullptr || deviance(score) < deviance(best.score)) best = {start, score};
       }
     }
@@ -270,12 +286,14 @@ std::vector<PairPeak> best_of_neighbours(const PairModel& model, const PairCandi
   for (std::size_t k = 0; k < peaks.size(); ++k) index[key(candidates.squares[k].i, candidates.squares[k].j)] = k;
   std::vector<PairPeak> best;
   for (std::size_t k = 0; k < peaks.size(); ++k) {
+    // No finger can be in the square.
     if (peaks[k].start.arc[0] == nullptr) continue;
     const PairSquare& square = candidates.squares[k];
     bool is_best = true;
     // An open part's last square is beside no first one: its number is of no square.
     const std::uint32_t n = candidates.cells;
     const auto stepped = [&](std::uint32_t at, std::uint32_t by) {
+      // `by` is 0, 1 or 2: one cell back, the same, one on.
       return model.places.closed ? (at + n + by - 1) % n : at + by - 1;
     };
     for (std::uint32_t di = 0; di < 3 && is_best; ++di) {
@@ -303,6 +321,7 @@ std::vector<PairPeak> from_everywhere(const PairModel& model, std::vector<PairPe
   for (std::size_t k = 0; k < peaks.size(); ++k) {
     const std::uint32_t part = kParts * part_at(peaks[k].start, 0) + part_at(peaks[k].start, 1);
     const std::size_t rank = count[part]++;
+    // The first half of `most` has the first turn, whatever its part; others the turn of their rank within the part.
     turns.emplace_back(2 * k < most ? 0 : rank, k);
   }
   std::sort(turns.begin(), turns.end());
@@ -317,6 +336,7 @@ std::vector<PairPeak> from_everywhere(const PairModel& model, std::vector<PairPe
 bool is_near(const PairPeak& peak, const PairPeak& other, double squared) {
   if (other.start.arc != peak.start.arc) return false;
   const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
+  // By the information, and near in w as well: where nothing is known all are near by the information.
   return off.dot(peak.score.information * off) < squared &&
          off.norm() < 1e-3 * (peak.start.arc[0]->hi() - peak.start.arc[0]->lo());
 }
@@ -325,6 +345,7 @@ bool is_near(const PairPeak& peak, const PairPeak& other, double squared) {
 std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
   std::vector<PairPeak> found;
   for (const PairPeak& peak : peaks) {
+    // How many times larger the best one's cost is than expected.
     const double scale = std::max(1.0, peaks.front().score.cost / rows);
     if (deviance(peak.score) > deviance(peaks.front().score) + kHopeless * scale) break;
     const bool is_known =
@@ -397,6 +418,7 @@ PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
     const TiltedArc& arc = *start.arc[finger];
     double& w = next.w[finger];
     w += by[static_cast<Eigen::Index>(finger)];
+    // A loop goes on around; on any other arc a finger stops at its end.
     w = arc.loop() ? arc.lo() + wrap(w - arc.lo(), arc.hi() - arc.lo()).base : std::clamp(w, arc.lo(), arc.hi());
   }
   return next;
@@ -404,8 +426,9 @@ PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
 
 std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& candidates,
                                  const std::vector<PairNode>& nodes) {
-  // What the centres tell is so sharp that it leads astray from far away; but the normals alone leave families of
-  // places on straight sides, whose best is anywhere. So places are looked for without the centres and with them.
+  // Centres tell a place so sharply that from far away the slope does not lead to it. Normals alone leave families of
+  // places on straight sides, and the best of a family may be anywhere. So the search runs without centres and with
+  // them.
   std::vector<PairPeak> found = peaks_of(model, candidates, without_centres(nodes));
   const bool has_centres = nodes.back().centres.has_value();
   if (has_centres && model.path != nullptr) {
@@ -413,6 +436,7 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     found.insert(found.end(), sharp.begin(), sharp.end());
   }
   const bool on_trial = model.effort != Effort::whole;
+  // Peaks by few rows, or without centres, go on by all rows.
   if (nodes.size() > kFewRows || has_centres) {
     for (PairPeak& peak : found) {
       peak.score = score_of(model, peak.start, nodes, peak.score.errors, 3);

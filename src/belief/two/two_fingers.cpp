@@ -50,6 +50,7 @@ void let_part_be_off(std::vector<PairNode>& nodes, const PairErrors& errors) {
   for (PairNode& node : nodes) node.alike = alike;
 }
 
+/// The facade: rows are joined as they come, and the search runs over all of them when it is asked.
 class TwoFingersPosterior : public Posterior {
  public:
   TwoFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const FingerGeometry& contacts)
@@ -62,6 +63,7 @@ class TwoFingersPosterior : public Posterior {
         boundary_{boundary(0), boundary(1)},
         range_(part_.turning(), kRangeCells),
         rows_(options.robust) {
+    // Only stated noise of the centres makes them evidence.
     if (options.noise.position > 0) path_.emplace(part_);
     if (options.noise.drift == 0 && options.noise.walk == 0 && options.noise.gyro == 0) return;
     throw InputError(
@@ -85,6 +87,7 @@ class TwoFingersPosterior : public Posterior {
   std::size_t samples() const override { return rows_.size(); }
   bool has_begun() const override { return !rows_.empty() || contacts_.facing.has_value(); }
 
+  /// By the peaks alone, without the density. They are kept for settle().
   std::optional<Fit> fit_alone() override {
     if (!question_) {
       question_ = std::make_unique<Question>(*this, errors_);
@@ -93,6 +96,7 @@ class TwoFingersPosterior : public Posterior {
     return peaks_.fit;
   }
 
+  /// The density around the peaks and its modes. None where no pair fits at all.
   Outcome settle() override {
     Outcome outcome;
     outcome.fit = *fit_alone();
@@ -102,6 +106,7 @@ class TwoFingersPosterior : public Posterior {
     if (found.peaks.empty()) return outcome;
     PairModel model = question.model;
     const bool is_hopeless = found.fit.excess > kMostExcess;
+    // Where rows fit badly the noise is widened and the density wide: it gets less effort.
     model.effort =
         is_hopeless ? Effort::hopeless : std::max(model.effort, found.fit.is_bad() ? Effort::trial : Effort::whole);
     const PairDensity density =
@@ -111,6 +116,7 @@ class TwoFingersPosterior : public Posterior {
     pieces_ = std::move(modes.pieces);
     const PairScore& best = found.peaks.front().score;
     outcome.evidence = {best.log_likelihood(), std::log(density.total), -0.5 * best.log_gathered};
+    // Where nothing fits no verdict depends on what was not resolved.
     outcome.unresolved = (is_hopeless ? 0 : density.rest) + found.missed;
     return outcome;
   }
@@ -122,6 +128,8 @@ class TwoFingersPosterior : public Posterior {
     return most;
   }
 
+  /// The largest variance of f over these readings and modes, and of the facing. An error n of a contact moves it, by
+  /// kappa, and turns the felt normal, by 1/r: the sum of both bounds it whatever their signs. Radians^2.
   double variance_of_miss(const std::vector<Reading>& readings, const std::vector<Mode>& modes) const override {
     const TurningFunction& turning = part_.turning();
     double most = contacts_.facing ? errors_.facing_variance() : 0;
@@ -142,6 +150,7 @@ class TwoFingersPosterior : public Posterior {
     return most;
   }
 
+  /// First the likeliest piece with share 0, as the reference; then all of the mode.
   std::vector<Piece> pieces(std::size_t index, const Mode& /*mode*/) const override {
     std::vector<Piece> pieces = pieces_[index];
     const auto best = std::max_element(pieces.begin(), pieces.end(),
@@ -153,6 +162,7 @@ class TwoFingersPosterior : public Posterior {
     return pieces;
   }
 
+  /// Each finger's first contact by itself.
   PerFinger<Density> density(const std::vector<Mode>& modes) const override {
     PerFinger<Density> density{Density{}, Density{}};
     for (std::size_t k = 0; k < modes.size(); ++k) {
@@ -171,11 +181,13 @@ class TwoFingersPosterior : public Posterior {
       let_part_be_off(nodes, errors);
       const double accuracy = kShareOfAngle * std::sqrt(errors.turn_variance());
       const PerFinger<double>& curvature = of.contacts_.finger_curvature;
+      // Fingers of one curvature share their tables.
       const bool alike = curvature[0] == curvature[1];
       for (const std::size_t finger : {0U, 1U}) {
         if (finger == 1 && alike) break;
         felt[finger].emplace(of.part_.turning(), errors.contact_sd(), of.corner(finger), errors.normal_turn(finger),
                              accuracy);
+        // Where a corner is as near as the finger may have slipped, it may be at it: see pivot_at.
         if (errors.drifts() && felt[finger]->has_corners()) {
           slipping[finger].emplace(of.part_.turning(), std::hypot(errors.contact_sd(), of.most_slipped()),
                                    of.corner(finger), errors.normal_turn(finger), accuracy);
@@ -202,25 +214,28 @@ class TwoFingersPosterior : public Posterior {
     Question(const Question&) = delete;
     Question& operator=(const Question&) = delete;
 
-    std::vector<PairNode> nodes;
+    std::vector<PairNode> nodes;  // all rows as few
     std::array<std::optional<FeltTurning>, 2> felt;
     std::array<std::optional<FeltTurning>, 2> slipping;
     std::array<std::optional<Passings>, 2> passings;
-    PairModel model;
+    PairModel model;  // points to the tables above
   };
 
-  /// By the end of the roll, length.
+  /// Standard deviation of what a finger may have slipped over the longer one of both rolls; length.
   double most_slipped() const {
     if (rows_.empty()) return 0;
     const double rolled = std::max(std::abs(rows_.last().length[0]), std::abs(rows_.last().length[1]));
     return std::sqrt(errors_.gathered(0, {rolled, rolled})[0]);
   }
 
+  /// The peaks of the likelihood with all rows, and how well the best one fits.
   Peaks peaks_of(const Question& question) const;
   /// How far the fingers roll from one node to the next; 0 where neighbours can't be said to be alike.
   double step_between(const std::vector<PairNode>& nodes) const;
+  /// Of each equation, in one more pass at a peak.
   static Innovations innovations_at(const Question& question, const PairPeak& peak);
 
+  /// Where the first contacts were felt in the world; nothing where a finger or its orientation is not known.
   void keep_first(const Sample& sample) {
     if (!sample.contact || contacts_.fingers.empty()) return;
     for (const std::size_t which : {0U, 1U}) {
@@ -251,6 +266,7 @@ class TwoFingersPosterior : public Posterior {
     return path_ && errors.absolute() && rows_.have_centres() ? first_centres_ : std::nullopt;
   }
 
+  /// By w of this finger. Without a curvature lengths and turns count alike, as uncertain as they are.
   TiltedBoundary boundary(std::size_t finger) const {
     const double even = std::sqrt(0.5 * errors_.turn_variance() / errors_.contact_variance());
     return {part_, tilt_of(contacts_.finger_curvature[finger], even, part_), accuracy_of(errors_.contact_sd(), part_)};
@@ -262,17 +278,17 @@ class TwoFingersPosterior : public Posterior {
   LogKind kind_;
   BeliefOptions options_;
   FingerGeometry contacts_;
-  PairErrors errors_;
-  std::array<TiltedBoundary, 2> boundary_;
-  TurningRange range_;
-  std::optional<BoundaryPath> path_;  // where centres are evidence
-  PairRows rows_;
-  bool has_first_ = false;
-  std::array<MeasuredContact, 2> first_;  // as felt at the first contacts
-  std::optional<PairCentres> first_centres_;
+  PairErrors errors_;                         // of both fingers' logs
+  std::array<TiltedBoundary, 2> boundary_;    // of each finger, by its own tilt
+  TurningRange range_;                        // bounds of Theta, for the first step of the search
+  std::optional<BoundaryPath> path_;          // where centres are evidence
+  PairRows rows_;                             // all rows so far
+  bool has_first_ = false;                    // first_ is known
+  std::array<MeasuredContact, 2> first_;      // as felt at the first contacts
+  std::optional<PairCentres> first_centres_;  // at the first contacts
   std::unique_ptr<const Question> question_;  // of all rows so far, with its peaks; none: they were not looked for yet
-  Peaks peaks_;
-  std::vector<std::vector<Piece>> pieces_;  // of each mode
+  Peaks peaks_;                               // of question_
+  std::vector<std::vector<Piece>> pieces_;    // of each mode
 };
 
 Innovations TwoFingersPosterior::innovations_at(const Question& question, const PairPeak& peak) {
@@ -290,10 +306,13 @@ double TwoFingersPosterior::step_between(const std::vector<PairNode>& nodes) con
   return travelled / static_cast<double>(nodes.size());
 }
 
-/// Where the noise is larger than said, what it allows is wider.
+/// The search begins with contacts off by kFarthest standard deviations. Where the best peak fits badly the noise may
+/// be larger than stated: it is repeated with as many more as the fit asks for, up to kFarthestOfAll. At last all
+/// squares are possible.
 Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   const PairErrors& errors = *question.model.errors;
   double freedom = 0;
+  // Centres make three equations of one; a node that is worth less than one row counts as that share.
   for (const PairNode& node : question.nodes) freedom += std::min(1.0, node.rows) * (node.centres ? 3 : 1);
   const auto fit = [&](const PairPeak& peak, const Trend& trend = {}) {
     const PairScore& best = peak.score;
@@ -321,6 +340,7 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
     }
     return of_best;
   };
+  // Squares as long as contacts are uncertain. On trial only the largest.
   const double resolution =
       question.model.effort != Effort::whole
           ? kLargestSquareShare * part_.perimeter()
@@ -331,22 +351,26 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   while (true) {
     const PairCandidates candidates = pair_candidates(question.model, range_, question.nodes, sigmas, resolution);
     const std::vector<PairPeak> again = pair_peaks(question.model, candidates, question.nodes);
+    // A wider search need not have found the better peaks.
     if (!again.empty() &&
         (peaks.empty() || again.front().score.log_likelihood() >= peaks.front().score.log_likelihood())) {
       peaks = again;
     }
     found.missed = candidates.missed;
     if (options_.glance) break;
+    // As far as contacts may be off with the noise that the best peak seems to have.
     const double needed = peaks.empty() ? kWider * sigmas : kFarthest * fit(peaks.front()).excess;
     if (needed <= 1.2 * sigmas || sigmas >= kFarthestOfAll) break;
     sigmas = std::min(kFarthestOfAll, std::max(needed, kWider * sigmas));
   }
+  // Even wide errors leave no square: the peaks of all of them, to say how badly they fit.
   if (peaks.empty() && !options_.glance) peaks = pair_peaks(question.model, all_squares(), question.nodes);
   if (peaks.empty()) {
     found.fit.chi_square = found.fit.sigmas = found.fit.excess = std::numeric_limits<double>::infinity();
     return found;
   }
   found.fit = fit(peaks.front(), trend_of(innovations_at(question, peaks.front()), freedom));
+  // A glance is not interested in what fits badly.
   if (options_.glance && found.fit.excess > 1) peaks.clear();
   return found;
 }

@@ -19,9 +19,9 @@ namespace rollfix {
 
 /// What all parts of a catalog are asked first, side by side in memory: 660 bytes a part, and its name.
 struct Catalog::Index {
-  std::vector<catalog::Course> courses;
-  std::vector<catalog::Profile<catalog::kCoarseCells>> coarse;
-  std::vector<catalog::Profile<catalog::kCells>> cells;
+  std::vector<catalog::Course> courses;                         // in the catalog's order, as all of these
+  std::vector<catalog::Profile<catalog::kCoarseCells>> coarse;  // Theta on 16 cells
+  std::vector<catalog::Profile<catalog::kCells>> cells;         // Theta on 64 cells
   std::vector<std::uint8_t> measured;  // its outline is not exact: bounds on it say nothing certain
   /// Read from the file.
   std::function<std::vector<catalog::Profile<catalog::kFineCells>>(const std::vector<std::size_t>& parts)> fine;
@@ -36,7 +36,7 @@ namespace rollfix::catalog {
 /// A part that is left, and where on it the roll can have started, of each way in which it may have gone: without cells
 /// not that way. Nothing of any way: nothing is known.
 struct PartLeft {
-  std::size_t part = 0;
+  std::size_t part = 0;  // its place in the catalog
   std::vector<Cells<kFineCells>> cells{};
 };
 
@@ -62,11 +62,12 @@ class Bounds {
   bool look_in_memory(Candidate& candidate) const;
   /// From finer cells and from the part itself; nothing: it can't be it.
   std::optional<PartLeft> look_closely(const Candidate& candidate, const Profile<kFineCells>& fine) const;
+  /// The clues that hold on a part, by whether it is stored reversed.
   const std::vector<RollClues>& ways_on(std::size_t part) const;
 
   const Catalog& catalog_;
   const Catalog::Index& index_;
-  std::array<std::vector<RollClues>, 2> clues_;
+  std::array<std::vector<RollClues>, 2> clues_;  // [0]: of parts stored as they were given; [1]: reversed
 };
 
 /// Rules out parts of a catalog that touches can't be of, by cells of their boundaries.
@@ -80,9 +81,9 @@ class TouchBounds {
 
  private:
   const Catalog& catalog_;
-  std::vector<touch::Measured> touches_;
-  touch::TouchPair pair_;
-  double radius_ = 0;
+  std::vector<touch::Measured> touches_;  // those with a place, as the search takes them
+  touch::TouchPair pair_;                 // two of them, whose cells are compared first
+  double radius_ = 0;                     // of the finger; 0: a point
 };
 
 }  // namespace rollfix::catalog

@@ -25,12 +25,14 @@
 namespace rollfix::catalog {
 namespace {
 
+// The least of no cells; its negative is the most of none: an empty interval.
 constexpr float kNothingYet = std::numeric_limits<float>::infinity();
 // Of sums of squares in single precision, as a share.
 constexpr double kCostRounding = 1e-2;
 // Of a length, in cells: beyond that they can't be told from each other.
 constexpr double kMostCells = 1e9;
 
+/// The largest whole number that is not above the value, which has to be one of 64 bits.
 std::int64_t floor_of(double value) {
   const auto towards_zero = static_cast<std::int64_t>(value);
   return towards_zero - (static_cast<double>(towards_zero) > value ? 1 : 0);
@@ -71,17 +73,21 @@ class Laps {
     const double from = (length - slack) * cells_per_length_;
     const double to = (length + slack) * cells_per_length_;
     constexpr auto kN = static_cast<std::int64_t>(N);
+    // Known to a lap at best, or so long that single cells are lost in rounding: the reading says nothing.
     if (!(to - from <= N && std::abs(from) <= kMostCells)) return false;
     const std::int64_t first = floor_of(from);
     const std::int64_t last = floor_of(to) + 1;  // rolls that start at the end of a cell
     if (last - first >= kN) return false;
     ends = {};
+    // Whole laps are taken off, each with its turn: `first` is in [0, N), and i + first + count stays within three
+    // laps.
     if (closed_) {
       const std::int64_t lap = (first >= 0 ? first : first - kN + 1) / kN;
       ends.first = static_cast<std::size_t>(first - lap * kN);
       ends.count = static_cast<std::size_t>(last - first + 1);
       ends.lift = static_cast<float>(lap) * period_turn_;
     } else if (first < kN && last > -kN) {
+      // Ends before the boundary and behind it are cells of the empty laps: they leave the bounds as they are.
       const std::int64_t on_it = std::max(first, -kN);
       ends.first = static_cast<std::size_t>(on_it + kN);
       ends.count = static_cast<std::size_t>(std::min(last, kN - 1) - on_it + 1);
@@ -89,10 +95,11 @@ class Laps {
     return true;
   }
 
-  double laps_per_length() const { return cells_per_length_ / N; }
+  double laps_per_length() const { return cells_per_length_ / N; }  // 1 / P
 
   /// Where the tangents may point at the ends of rolls that start in each of the four cells from i on.
   void angles(const Ends& ends, std::size_t i, Four& least, Four& most) const {
+    // The cells that a roll from cell i ends in are `count` neighbours; lane by lane those of the next starts.
     least.setConstant(kNothingYet);
     most.setConstant(-kNothingYet);
     for (std::size_t k = ends.first + i; k < ends.first + i + ends.count; ++k) {
@@ -105,13 +112,13 @@ class Laps {
 
  private:
   static constexpr std::size_t kLaps = 3;
-  static constexpr std::size_t kOpenLap = 1;
+  static constexpr std::size_t kOpenLap = 1;  // where an open boundary lies: rolls may end on either side of it
 
   bool closed_;
   double perimeter_;
   double cells_per_length_;
-  float period_turn_ = 0;
-  std::array<float, kLaps * N> least_;
+  float period_turn_ = 0;               // turn of a lap, radians
+  std::array<float, kLaps * N> least_;  // Theta on each cell, lap after lap
   std::array<float, kLaps * N> most_;
 };
 
@@ -119,6 +126,7 @@ class Laps {
 float slack_in_cells(const Clue& clue, const Course& course, double laps_per_length) {
   const double most_curvature = course.most_curvature * (1 + kShareRounding);
   double slack = clue.slack(most_curvature);
+  // Rounding of single precision: of sums of a few turns, and of each whole lap that is added as a turn.
   for (const double length : clue.length) {
     const double laps = course.closed ? std::abs(length) * laps_per_length + 2 : 1;
     slack += kTurnRounding + kShareRounding * (std::abs(clue.turn) + laps * std::abs(course.period_turn));
@@ -129,21 +137,23 @@ float slack_in_cells(const Clue& clue, const Course& course, double laps_per_len
 /// What the tangent at the start may be in four cells, as far as is known.
 struct Tangents {
   std::size_t larger;  // the cell that these four lie in
-  Four least;
+  Four least;          // radians; above `most`: that cell is ruled out
   Four most;
 
+  /// Whether any of the four cells is left.
   bool is_any() const { return (most - least).maxCoeff() >= 0; }
 };
 
 /// What one reading says of all cells.
 struct Row {
-  Ends ends;
-  float turn;
+  Ends ends;     // where it ends, from each cell
+  float turn;    // radians
   float slack;   // as if its own error were none, and ...
   float reach;   // ... with the most that it can be
   float weight;  // 1 / its variance; 0: there is none
 };
 
+/// What a reading says of all cells; nothing where its length is known too badly.
 template <std::size_t N>
 std::optional<Row> row_of(const Laps<N>& laps, const Course& course, const Clues& clues, const Clue& clue) {
   Row row;
@@ -153,6 +163,7 @@ std::optional<Row> row_of(const Laps<N>& laps, const Course& course, const Clues
   row.reach = row.slack;
   row.weight = 0;
   if (clues.most_cost > 0) {
+    // If all of `most_cost` is this row's, its own error is sqrt(most_cost) sd; the shared one likewise.
     const double most_error = std::sqrt(clues.most_cost) * (clue.turn_sd + clues.shared_sd);
     row.reach += static_cast<float>(most_error * (1 + kShareRounding));
     if (clue.turn_sd > 0) row.weight = static_cast<float>(1 / (clue.turn_sd * clue.turn_sd));
@@ -164,8 +175,10 @@ std::optional<Row> row_of(const Laps<N>& laps, const Course& course, const Clues
 template <std::size_t N>
 void drop_costly(const Profile<N>& profile, const Laps<N>& laps, const Clues& clues, const std::vector<Row>& rows,
                  std::array<Tangents, N / 4>& tangents, std::size_t& left) {
+  // Rounded up: a sum that is too large by rounding must not rule out a cell.
   const auto enough = static_cast<float>(clues.most_cost * (1 + kCostRounding));
   std::vector<Asked<Four>> asked;
+  // Tangents that are left move to the front, in place: [0, left) of those that were looked at.
   const std::size_t count = left;
   left = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -189,8 +202,10 @@ void drop_costly(const Profile<N>& profile, const Laps<N>& laps, const Clues& cl
 /// Each reading confines the tangent at the start further, until nothing is left of most cells.
 template <std::size_t N>
 Cells<N> cells_of_one(const Profile<N>& profile, const Course& course, const Clues& clues, const Cells<N / 4>& within) {
+  // Four cells are looked at together. Invariant: tau of [0, left) is what all readings so far leave of it.
   std::array<Tangents, N / 4> tangents;
   std::size_t left = 0;
+  // Of the larger cells that are left all four: tau is one of the tangents on them.
   for (std::size_t k = 0; k < N / 4; ++k) {
     if (within[k]) tangents[left++] = {k, Cells4(&profile.least[4 * k]), Cells4(&profile.most[4 * k])};
   }
@@ -198,6 +213,7 @@ Cells<N> cells_of_one(const Profile<N>& profile, const Course& course, const Clu
   std::vector<Row> rows;
   for (const Clue& clue : clues.clues) {
     const std::optional<Row> row = row_of(laps, course, clues, clue);
+    // Says nothing: no cell is lost by it.
     if (!row) continue;
     if (clues.most_cost > 0) rows.push_back(*row);
     const std::size_t count = left;
@@ -213,8 +229,10 @@ Cells<N> cells_of_one(const Profile<N>& profile, const Course& course, const Clu
       tangents[left] = one;
       left += one.is_any() ? 1 : 0;
     }
+    // Nothing is left of any cell: the part is ruled out.
     if (left == 0) break;
   }
+  // First each row by itself, which is cheap, then all together.
   if (clues.most_cost > 0 && left > 0) drop_costly(profile, laps, clues, rows, tangents, left);
   Cells<N> cells;
   for (std::size_t k = 0; k < left; ++k) {
@@ -233,6 +251,8 @@ struct Turned {
   std::array<float, N> most;
 };
 
+/// Bounds on Theta(end) - Theta(start) of one finger, for each cell: the least end less the largest start, and the
+/// other way round.
 template <std::size_t N>
 Turned<N> turned(const Profile<N>& profile, const Laps<N>& laps, const Ends& ends) {
   Turned<N> turned;
@@ -264,6 +284,7 @@ std::vector<PairRow<N>> pair_rows(const Profile<N>& profile, const Course& cours
     Ends of_b;
     const bool is_known =
         laps.ends(clue.length[0], clue.length_slack, of_a) && laps.ends(clue.length[1], clue.length_slack, of_b);
+    // One of both lengths is known too badly: the reading says nothing.
     if (!is_known) continue;
     rows.push_back({turned(profile, laps, of_a), turned(profile, laps, of_b), static_cast<float>(clue.turn),
                     slack_in_cells(clue, course, laps.laps_per_length())});
@@ -271,18 +292,22 @@ std::vector<PairRow<N>> pair_rows(const Profile<N>& profile, const Course& cours
   return rows;
 }
 
-/// Whether some whole number of turns of the facing lies in [lo, hi].
+/// Whether the facing, with any whole number of turns added, lies in [lo, hi], radians.
 bool faces(double facing, double lo, double hi) {
+  // The least number of turns that brings it to `lo` or above.
   const double turns = std::ceil((lo - facing) / (2 * std::numbers::pi));
   return facing + 2 * std::numbers::pi * turns <= hi;
 }
 
-/// Pairs of cells: the cell that finger a starts in is left where any cell of finger b's goes with it.
+/// Pairs of cells: the cell that finger a starts in is left where any cell of finger b's goes with it. O(N^2) for each
+/// reading. The tangents at both starts have to differ by the facing, and what both tangents turn by theta: eqs. (8)
+/// and (9) over cells.
 template <std::size_t N>
 Cells<N> cells_of_two(const Profile<N>& profile, const Course& course, const Clues& clues, const Cells<N / 4>& within) {
   const std::vector<PairRow<N>> rows = pair_rows(profile, course, clues);
   const double slack = clues.facing_slack + clues.facing_slack_by_curvature * course.most_curvature + kTurnRounding;
   Cells<N> left;
+  // For each start of finger a all starts of finger b side by side.
   for (std::size_t i = 0; i < N; ++i) {
     if (!within[i / 4]) continue;
     std::array<std::uint8_t, N> goes;  // with cell j of finger b's
@@ -292,6 +317,7 @@ Cells<N> cells_of_two(const Profile<N>& profile, const Course& course, const Clu
                                  static_cast<double>(profile.most[i]) - profile.least[j] + slack));
     }
     for (const PairRow<N>& row : rows) {
+      // Phi_b has to be Phi_a - theta: the intervals have to meet.
       const float lo = row.a.least[i] - row.turn - row.slack;
       const float hi = row.a.most[i] - row.turn + row.slack;
       for (std::size_t j = 0; j < N; ++j) {

@@ -15,12 +15,12 @@ namespace rollfix::catalog {
 /// What one reading asks of the tangent at the start, as if its own error were none; and 1 / its variance.
 template <typename Lanes>
 struct Asked {
-  Lanes least;
-  Lanes most;
+  Lanes least;  // tau is at least this, radians, ...
+  Lanes most;   // ... and at most this
   typename Lanes::Scalar weight;
 };
 
-/// An interval of tangents at the start, and the variance of an error that all readings share.
+/// An interval of tangents at the start, and the standard deviation of an error that all readings share.
 template <typename Lanes>
 struct Start {
   Lanes least;
@@ -35,7 +35,9 @@ struct Start {
 template <typename Lanes>
 Lanes least_cost(const Start<Lanes>& start, const std::vector<Asked<Lanes>>& asked, typename Lanes::Scalar enough) {
   using Scalar = typename Lanes::Scalar;
+  // Of the slope's interval: more make the bound closer where it is near `enough`, and take time.
   constexpr int kHalvings = 12;
+  // One parabola of x, 0 between least and most: convex, and so is the sum of all.
   const auto add = [](const Lanes& x, const Asked<Lanes>& one, Lanes& cost, Lanes& slope) {
     const Lanes miss = (x - one.most).max(Scalar(0)) - (one.least - x).max(Scalar(0));
     cost += one.weight * miss.square();
@@ -49,6 +51,7 @@ Lanes least_cost(const Start<Lanes>& start, const std::vector<Asked<Lanes>>& ask
       add(x, {start.least, start.most, 1 / (start.shared_sd * start.shared_sd)}, cost, slope);
     }
   };
+  // Farther from the start's interval than this the shared error alone costs more than `enough`.
   const Scalar room = std::sqrt(enough) * start.shared_sd;
   Lanes lo = start.least - room;
   Lanes hi = start.most + room;
@@ -58,12 +61,18 @@ Lanes least_cost(const Start<Lanes>& start, const std::vector<Asked<Lanes>>& ask
   Lanes slope_hi;
   at(lo, cost_lo, slope_lo);
   at(hi, cost_hi, slope_hi);
+  // A convex function lies above its tangents. That at lo bounds it from below over all of [lo, hi], and so does that
+  // at hi: the larger of both bounds holds.
   const auto bound = [&]() -> Lanes {
     const Lanes from_lo = cost_lo + (slope_lo < 0).select(slope_lo * (hi - lo), Lanes::Zero());
     const Lanes from_hi = cost_hi - (slope_hi > 0).select(slope_hi * (hi - lo), Lanes::Zero());
     return from_lo.max(from_hi);
   };
+  // Invariant: the minimum over [lo, hi] as it was first lies in the present one: the slope is below 0 at lo and not
+  // below 0 at hi, or the end is the first one.
   for (int k = 0; k < kHalvings; ++k) {
+    // Goes on only while some lane could still fall to `enough`: a value at an end at most `enough` settles that it
+    // does, a bound above it that it does not.
     const bool may_be_less = ((cost_lo.min(cost_hi) > enough) && (bound() <= enough)).any();
     if (!may_be_less) break;
     const Lanes middle = lo + Scalar(0.5) * (hi - lo);
@@ -87,9 +96,9 @@ using Cells = std::bitset<N>;
 
 /// What bounds need to know of a part besides its profile.
 struct Course {
-  float perimeter = 0;
-  float period_turn = 0;
-  float most_curvature = 0;
+  float perimeter = 0;       // in the catalog's unit
+  float period_turn = 0;     // turn of a lap, radians: 2 pi of a simple closed outline
+  float most_curvature = 0;  // the largest |kappa|
   bool closed = true;
 };
 

@@ -23,7 +23,8 @@
 namespace rollfix::catalog {
 namespace {
 
-// Rows that are looked at first, and then: more tell little more, and take time.
+// Rows that are looked at first, and then. More rows take time in each cell and tell little more; with fewer, more
+// parts are left to the search.
 constexpr std::size_t kFew = 12;
 constexpr std::size_t kMany = 48;
 // Without noise, rows that were not searched with may be off by so many times what the digits leave open: as for one
@@ -38,6 +39,7 @@ constexpr double kSigmasOfSum = 5;
 void spread(std::vector<Clue>& clues) {
   std::vector<Clue> all;
   all.reserve(clues.size());
+  // Steps of a power of two, halved: the rows at odd multiples of each are those that no larger step had.
   for (std::size_t step = std::bit_ceil(clues.size()); step > 0; step /= 2) {
     for (std::size_t k = step; k <= clues.size(); k += 2 * step) all.push_back(clues[k - 1]);
   }
@@ -54,7 +56,7 @@ std::vector<std::size_t> some_of(std::size_t rows, std::size_t wanted) {
 
 double square(double x) { return x * x; }
 
-/// The larger of both.
+/// Of each variance the larger one: a slack that holds at both ends of a range of perimeters.
 void widen(std::vector<RowErrors>& errors, const std::vector<RowErrors>& others) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     errors[k].length = std::max(errors[k].length, others[k].length);
@@ -64,7 +66,8 @@ void widen(std::vector<RowErrors>& errors, const std::vector<RowErrors>& others)
   }
 }
 
-/// The least and the largest perimeter: noise depends on it a little.
+/// The least and the largest perimeter of the catalog: noise depends on it a little, and a clue has to hold on every
+/// part. REQUIRES that there is one.
 Interval perimeters(const Catalog& catalog) {
   Interval range{std::numeric_limits<double>::infinity(), 0};
   for (std::size_t k = 0; k < catalog.size(); ++k) {
@@ -74,8 +77,11 @@ Interval perimeters(const Catalog& catalog) {
   return range;
 }
 
+/// Clues of a roll with noise. `few`: each row's slack holds all of its errors. `many`: own and shared errors are told
+/// apart and added up as squares; only what gathers on the way is slack. `range`: of perimeters.
 RollClues clues_with_noise(const Problem& problem, const Observation& observed, const Interval& range, double excess) {
   const double farthest = excess * kFarthest;
+  // Of a log all of its rows.
   const std::vector<Reading>& rows = problem.measured.is_log() ? observed.rolls : observed.readings;
   RollClues roll;
   for (Clues* clues : {&roll.few, &roll.many}) clues->fingers = rows.front().fingers();
@@ -89,6 +95,7 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
     one.length_slack = farthest * std::sqrt(errors[row].length);
     return one;
   };
+  // One interval for each row: 6 standard deviations of all that it may be off.
   for (const std::size_t row : some_of(rows.size(), kFew)) {
     roll.few.clues.push_back(clue(row));
     roll.few.clues.back().turn_slack =
@@ -99,9 +106,12 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
     roll.many.clues.back().turn_slack = farthest * std::sqrt(errors[row].gathered);
     roll.many.clues.back().turn_sd = std::sqrt(errors[row].own);
   }
+  // On the true part the squares add up to a chi-square of `count` degrees of freedom: below this but once in a million
+  // rolls, with `excess` times the noise excess^2 of it.
   const auto count = static_cast<double>(roll.many.clues.size());
   roll.many.shared_sd = std::sqrt(errors.front().shared);
   roll.many.most_cost = square(excess) * (count + kSigmasOfSum * std::sqrt(2 * count) + square(kSigmasOfSum));
+  // The facing is the difference of both first contacts' directions, which have the shared error each.
   if (observed.facing) {
     roll.few.facing = roll.many.facing = observed.facing;
     roll.few.facing_slack = roll.many.facing_slack = farthest * std::sqrt(2 * errors.front().shared);
@@ -111,15 +121,19 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
   return roll;
 }
 
+/// Clues of rows that are exact up to their digits, or to the tolerance: no squares are added up. Readings to search
+/// with have the search's own slack, all other rows of a log ten times that.
 RollClues clues_without_noise(const Problem& problem, const Observation& observed) {
   // A log's rows all have to fit, unless only some were asked for.
   const bool takes_all = problem.measured.is_log() && !problem.tolerance && problem.at.empty();
+  // The largest rounding of any reading, so that one slack holds for all.
   Rounding rounding;
   for (const Rounding& one : observed.roundings) {
     rounding = {std::max(rounding.length, one.length), std::max(rounding.turn, one.turn)};
   }
   Clue slack;
   slack.turn_slack = LocateOptions().tolerance + rounding.turn;
+  // A length that is off by d turns the tangent by at most |kappa| d.
   slack.turn_slack_by_curvature = rounding.length;
   if (problem.tolerance) {
     slack.turn_slack = std::max(*problem.tolerance, kLeastTolerance);
@@ -136,6 +150,7 @@ RollClues clues_without_noise(const Problem& problem, const Observation& observe
       clue.turn_slack_by_curvature *= times;
       clues.clues.push_back(clue);
     };
+    // What is searched with has to fit within the search's own tolerance.
     for (const Reading& reading : observed.readings) add(reading, 1);
     if (observed.facing) {
       clues.facing = observed.facing;
@@ -157,9 +172,11 @@ std::array<std::vector<RollClues>, 2> clues_of(const Catalog& catalog, const Pro
   const Interval range = perimeters(catalog);
   std::array<std::vector<RollClues>, 2> clues;
   for (const bool is_reversed : {false, true}) {
+    // One part that is stored this way stands for all of them: its direction decides the signs of lengths.
     std::size_t k = 0;
     while (k < catalog.size() && catalog.entry(k).reversed != is_reversed) ++k;
     if (k == catalog.size()) continue;
+    // One way, or both where lengths may count either way.
     for (const View& view : views_of(like)) {
       Problem way = view.of(like);
       way.part = catalog.part(k);

@@ -13,19 +13,20 @@ namespace rollfix::catalog {
 
 /// A reading, and how far it may be off.
 struct Clue {
-  PerFinger<double> length;
-  double turn = 0;
+  PerFinger<double> length;            // L of each finger, in the catalog's unit
+  double turn = 0;                     // theta, radians
   double length_slack = 0;             // of each length
   double turn_slack = 0;               // radians
   double turn_slack_by_curvature = 0;  // so much more, times the part's largest curvature
   double turn_sd = 0;                  // besides, an error that only this reading has: its squares are added up
 
+  /// How far the turn may be off on a part with this largest |kappa|, radians, `turn_sd` aside.
   double slack(double most_curvature) const { return turn_slack + turn_slack_by_curvature * most_curvature; }
 };
 
 /// All readings of a roll together; none: nothing is known, and every part may be it.
 struct Clues {
-  std::vector<Clue> clues;
+  std::vector<Clue> clues;         // far apart ones first
   std::optional<double> facing{};  // of two fingers, as LocateOptions has it
   double facing_slack = 0;
   double facing_slack_by_curvature = 0;

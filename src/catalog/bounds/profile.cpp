@@ -25,11 +25,12 @@
 namespace rollfix::catalog {
 namespace {
 
-// Joints may be on either side of a cell's end by rounding: cells are looked at this share of them farther.
+// Joints may be on either side of a cell's end by rounding: cells are looked at farther by this share of their length.
 constexpr double kBeyondCell = 1e-6;
 // Steps between the bounds of a cell of 64.
 constexpr int kSteps = 255;
 
+/// Four cells of one profile make one of the next: least of the least, most of the most.
 template <std::size_t N>
 Profile<N / 4> quarter_of(const Profile<N>& fine) {
   Profile<N / 4> coarse;
@@ -42,6 +43,7 @@ Profile<N / 4> quarter_of(const Profile<N>& fine) {
   return coarse;
 }
 
+/// The bytes with their checksum behind them.
 std::string with_checksum(const std::string& bytes) {
   ByteWriter writer;
   writer.whole(checksum(bytes));
@@ -52,6 +54,7 @@ std::string with_checksum(const std::string& bytes) {
 std::optional<std::string_view> checked(std::string_view bytes, std::size_t length) {
   if (bytes.size() != length + sizeof(std::uint64_t)) return std::nullopt;
   const std::string_view content = bytes.substr(0, length);
+  // Not what was written.
   if (ByteReader(bytes.substr(length)).whole() != checksum(content)) return std::nullopt;
   return content;
 }
@@ -65,8 +68,11 @@ float down_from(float least, float most, int steps) {
 }
 
 /// The most steps of which `is_outside` says that they don't go too far.
+/// As a byte, because there are kSteps + 1 of them. `share`: about how far that is, of the range; rounding is made good
+/// by going back. A range of 0 takes no step.
 template <typename IsOutside>
 char most_steps(double share, const IsOutside& is_outside) {
+  // 0 / 0 where the cell's range is 0.
   int steps = std::isfinite(share) ? static_cast<int>(std::clamp(kSteps * share, 0.0, 1.0 * kSteps)) : 0;
   while (steps > 0 && !is_outside(steps)) --steps;
   return static_cast<char>(static_cast<unsigned char>(steps));
@@ -79,9 +85,11 @@ Profile<kFineCells> profile_of(const Part& part) {
   const double step = part.perimeter() / kFineCells;
   for (std::size_t k = 0; k < kFineCells; ++k) {
     const auto at = static_cast<double>(k);
+    // Beyond both ends by kBeyondCell: covers may only be larger.
     Interval arc{step * (at - kBeyondCell), step * (at + 1 + kBeyondCell)};
     if (!part.closed()) arc = {std::max(arc.lo, 0.0), std::min(arc.hi, part.perimeter())};
     const Interval angles = angles_over(part.turning(), arc);
+    // Outwards: a float that is no larger than the least, and none smaller than the most.
     profile.least[k] = float_below(angles.lo);
     profile.most[k] = float_above(angles.hi);
   }
@@ -94,6 +102,7 @@ Profile<kCoarseCells> coarser(const Profile<kCells>& cells) { return quarter_of(
 std::string bytes_of(const Profile<kCells>& profile) {
   ByteWriter bytes;
   for (const auto* bounds : {&profile.least, &profile.most}) {
+    // Two floats in eight bytes, the first one low: little-endian whatever the machine is.
     for (std::size_t k = 0; k < kCells; k += 2) {
       const auto first = std::bit_cast<std::uint32_t>((*bounds)[k]);
       const auto second = std::bit_cast<std::uint32_t>((*bounds)[k + 1]);
@@ -123,7 +132,9 @@ std::string fine_bytes_of(const Profile<kFineCells>& fine, const Profile<kCells>
   for (std::size_t k = 0; k < kFineCells; ++k) {
     const float least = cells.least[k / 4];
     const float most = cells.most[k / 4];
+    // In double precision: only the number of steps depends on it, and most_steps() checks that.
     const double range = static_cast<double>(most) - least;
+    // Steps up from the larger cell's least, steps down from its most: both stay outside of the fine cell's bounds.
     bytes[k] = most_steps((fine.least[k] - least) / range,
                           [&](int steps) { return up_from(least, most, steps) <= fine.least[k]; });
     bytes[kFineCells + k] = most_steps((most - fine.most[k]) / range,
@@ -154,6 +165,9 @@ namespace {
 // perimeter.
 constexpr double kPlaceSlack = 1e-6;
 
+/// The disc of a round finger's centres at a cell whose places are within `reach` of `place` and whose tangents are in
+/// [lo, hi]. Normals that turn by up to w from n(m) lie within sin w of cos w n(m); where they turn by more than a
+/// quarter, within 1 of 0. `radius` 0: the places themselves.
 CentreCell cell_of(const Vec2& place, double reach, double lo, double hi, double radius) {
   CentreCell cell;
   cell.angle = 0.5 * (lo + hi);
@@ -161,6 +175,7 @@ CentreCell cell_of(const Vec2& place, double reach, double lo, double hi, double
   cell.middle = place;
   cell.radius = reach;
   if (radius == 0) return cell;
+  // Beyond a quarter turn the disc is about the places themselves, with the whole radius.
   const double w = std::min(cell.half_turn, 0.5 * std::numbers::pi);
   const bool is_all = cell.half_turn > w;
   cell.middle += radius * (is_all ? 0 : std::cos(w)) * Vec2(std::sin(cell.angle), -std::cos(cell.angle));
@@ -168,6 +183,7 @@ CentreCell cell_of(const Vec2& place, double reach, double lo, double hi, double
   return cell;
 }
 
+/// Points of the boundary at the middles of N equal cells.
 template <std::size_t N>
 Middles<N> middles_of(const Part& part) {
   Middles<N> middles;
@@ -192,6 +208,7 @@ std::vector<CentreCell> centre_cells(const Profile<N>& profile, const Middles<N>
   cells.reserve(N);
   for (std::size_t k = 0; k < N; ++k) {
     const Vec2 place(middles.x[k], middles.y[k]);
+    // p goes at unit speed: nothing in the cell is farther from its middle than half its length.
     const double reach = 0.5 * perimeter / static_cast<double>(N) + kPlaceSlack * (perimeter + place.norm());
     cells.push_back(cell_of(place, reach, profile.least[k], profile.most[k], radius));
   }

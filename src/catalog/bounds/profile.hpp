@@ -36,10 +36,11 @@ inline constexpr std::size_t kFineCells = 256;
 /// The least and the largest Theta on each of N equal cells of [0, P], radians, unwrapped, rounded outwards.
 template <std::size_t N>
 struct Profile {
-  std::array<float, N> least;
-  std::array<float, N> most;
+  std::array<float, N> least;  // no larger than any Theta on the cell
+  std::array<float, N> most;   // no smaller
 };
 
+/// Of the finest cells; the others follow from these by `coarser`.
 Profile<kFineCells> profile_of(const Part& part);
 
 /// What is known with a quarter of the cells.
@@ -62,6 +63,7 @@ struct Middles {
   std::array<float, N> x;
   std::array<float, N> y;
 };
+/// Of all three sizes of cells: 2.7 kB.
 struct CellPlaces {
   Middles<kCoarseCells> coarse;
   Middles<kCells> cells;

@@ -17,15 +17,19 @@
 #include "text/number.hpp"
 #include "text/text.hpp"
 
+// A header to columns. In this order: names and units in the header; one finger or two; columns that the options name;
+// columns of known names; then which of the three pairs the log has. All errors name the header and the cure.
+// Follows docs/rolling.md, "Logs".
 namespace rollfix {
 
 namespace {
 
-// Behind what is missing where x and y are there.
+// The end of a message about missing columns where x and y are there: it may be a wheel's log.
 constexpr const char* kOfWheel = "; a wheel without skin has no more, it is a finger wheel,r=R beside one with skin";
+// The three pairs, for messages.
 constexpr const char* kExpected = "'u' and 'psi', or 'length' and 'turn', or 'distance' and 'dturn'";
 
-/// "u [deg]", "u(deg)".
+/// Name and unit of a header's cell: "u [deg]", "u(deg)". Without brackets at its end all of it is the name.
 HeaderName header_name(std::string_view text) {
   HeaderName result{text, text, {}};
   if (text.empty()) return result;
@@ -37,6 +41,7 @@ HeaderName header_name(std::string_view text) {
   return result;
 }
 
+/// "[deg]", "(mm)", with something in it.
 bool is_in_brackets(std::string_view text) {
   return text.size() > 2 &&
          ((text.front() == '[' && text.back() == ']') || (text.front() == '(' && text.back() == ')'));
@@ -44,9 +49,12 @@ bool is_in_brackets(std::string_view text) {
 
 }  // namespace
 
+/// Cells point into one line of text: two that are put together are the text from the first one's start to the second
+/// one's end.
 std::vector<HeaderName> names_in(const TableRow& header) {
   std::vector<std::string_view> cells;
   for (const std::string_view cell : header.cells) {
+    // Blanks separate: "psi [deg]" came as two cells. They are one where only blanks stand between them.
     const bool is_unit = !cells.empty() && !cells.back().empty() && is_in_brackets(cell);
     if (is_unit) {
       const char* const last_end = cells.back().data() + cells.back().size();
@@ -71,6 +79,7 @@ class HeaderReader {
   HeaderReader(const TableRow& row, const std::string& log, const LogOptions& options)
       : row_(row), names_(names_in(row)), log_(log), options_(options) {}
 
+  /// Of a wheel without skin: no pair is asked for, but the pin's place.
   Columns pin_columns() const {
     Columns columns;
     columns.count = names_.size();
@@ -83,6 +92,7 @@ class HeaderReader {
     return columns;
   }
 
+  /// Of one finger, or of both. Throws InputError: fingers with different kinds of columns.
   std::vector<Columns> columns() const {
     if (!is_of_two()) {
       Columns one = finger_columns("");
@@ -97,8 +107,11 @@ class HeaderReader {
   }
 
  private:
+  /// Beginning of a message: "run.csv:1: the header 'a,b'".
   std::string start() const { return fmt::format("{}: the header '{}'", where(log_, row_.line), shown(row_.text)); }
 
+  /// Whether the log is of two fingers: the options say it by the columns that they name, else the header does, by
+  /// names that end in _a or _b and none without.
   bool is_of_two() const {
     const auto& sources = options_.columns;
     const auto is_two = [](const ColumnSource& source) { return says_where_of_one_of_two(source.column); };
@@ -110,6 +123,7 @@ class HeaderReader {
                        [](const HeaderName& one) { return says_where_of_one_of_two(one.name); });
   }
 
+  // Steps of the above, see each below.
   Columns finger_columns(const std::string& suffix) const;
   void require_pin(const Columns& columns) const;
   void add_named(Columns& columns, std::vector<bool>& taken) const;
@@ -123,8 +137,8 @@ class HeaderReader {
   std::string all_names() const;
   [[noreturn]] void refuse(const Columns& columns) const;
 
-  const TableRow& row_;
-  std::vector<HeaderName> names_;
+  const TableRow& row_;            // the header
+  std::vector<HeaderName> names_;  // of its cells
   const std::string& log_;
   const LogOptions& options_;
 };
@@ -134,12 +148,15 @@ Columns HeaderReader::finger_columns(const std::string& suffix) const {
   Columns columns;
   columns.count = names_.size();
   columns.suffix = suffix;
+  // First what the options name, then what has a known name.
   std::vector<bool> taken(names_.size(), false);
   add_named(columns, taken);
   add_known(columns, taken);
   columns.kind = kind_of(columns);
+  // What is said of all angles holds where nothing is said of this column.
   if (!columns.u_wrapped) columns.u_wrapped = options_.wrapped;
   if (!columns.psi_wrapped) columns.psi_wrapped = options_.wrapped;
+  // A centre has both.
   if (columns.has(Column::x) != columns.has(Column::y)) {
     throw InputError(fmt::format("{}: the header has a column '{}' but no '{}', expected both or neither{}",
                                  where(log_, row_.line), columns.called(columns.has(Column::x) ? Column::x : Column::y),
@@ -148,6 +165,7 @@ Columns HeaderReader::finger_columns(const std::string& suffix) const {
   return columns;
 }
 
+/// Throws InputError: a column that needs a skin, or no place of the pin.
 void HeaderReader::require_pin(const Columns& columns) const {
   for (const Column column : {Column::u, Column::length, Column::distance}) {
     if (!columns.has(column)) continue;
@@ -166,11 +184,13 @@ void HeaderReader::require_pin(const Columns& columns) const {
                   start(), why, all_names()));
 }
 
-/// Those that the options name.
+/// Takes the columns that the options name: each cell at most once (`taken`). Options of the other finger are passed
+/// over. Throws InputError: a name that the header does not have, one that is read twice.
 void HeaderReader::add_named(Columns& columns, std::vector<bool>& taken) const {
   for (const ColumnSource& source : options_.columns) {
     const std::optional<Column> column = column_named(source.column, columns.suffix);
     if (!column) {
+      // A column without _a or _b in a log of two fingers: whose it is is not known.
       if (!columns.suffix.empty() && !says_where_of_one_of_two(source.column) && is_known(source.column)) {
         throw InputError(fmt::format("{}: `columns` {}={}: the log is of two fingers, expected {}_a and {}_b",
                                      where(log_, row_.line), source.column, source.name, source.column, source.column));
@@ -185,6 +205,7 @@ void HeaderReader::add_named(Columns& columns, std::vector<bool>& taken) const {
     }
     taken[cell] = true;
     set(columns, *column, cell);
+    // "deg:unwrapped": how the angle is wrapped is taken off, the unit is left.
     std::string_view unit = source.unit;
     if (*column == Column::u) columns.u_wrapped = take_wrapping(unit);
     if (*column == Column::psi) columns.psi_wrapped = take_wrapping(unit);
@@ -192,13 +213,16 @@ void HeaderReader::add_named(Columns& columns, std::vector<bool>& taken) const {
   }
 }
 
-/// Those that have a known name, where the options do not name another.
+/// Takes the columns that have a known name, where the options do not name another. Where these name a pair, or one
+/// column of it, other pairs of the header are not looked at.
 void HeaderReader::add_known(Columns& columns, const std::vector<bool>& taken) const {
+  // What the options have named, before any known name is taken.
   const Columns named = columns;
   const auto is_named = [&](const ColumnPair& pair) { return named.has(pair.place) || named.has(pair.angle); };
   const bool pair_is_chosen = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), is_named);
   for (std::size_t k = 0; k < names_.size(); ++k) {
     const std::optional<Column> column = column_named(names_[k].name, columns.suffix);
+    // Not known, used already, or named by the options elsewhere.
     if (!column || taken[k] || named.has(*column)) continue;
     const auto* const pair = std::find_if(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& one) {
       return one.place == *column || one.angle == *column;
@@ -209,6 +233,7 @@ void HeaderReader::add_known(Columns& columns, const std::vector<bool>& taken) c
   }
 }
 
+/// Cell k holds this column. Throws InputError: another cell does already.
 void HeaderReader::set(Columns& columns, Column column, std::size_t k) const {
   std::size_t& cell = columns.cell[static_cast<std::size_t>(column)];
   if (cell != Columns::kNone) {
@@ -222,16 +247,21 @@ void HeaderReader::set(Columns& columns, Column column, std::size_t k) const {
   if (column == Column::contact) columns.contact_is_shared = names_[k].name == name_of(Column::contact);
 }
 
-/// `stated`: by the options; it goes before what the header says.
+/// The unit of a column, and how its numbers are converted. `stated`: by the options; it goes before what the header
+/// says, and that before what is said of all angles. Without any the numbers are radians, seconds or in the part's
+/// unit; a name that sounds like another unit is refused then, because both can be meant. Throws InputError: a unit
+/// that is not known or not the column's, or one of length where the part's is not known.
 void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& header,
                             const std::string& stated) const {
   if (column == Column::contact) return;
+  // In this order: the options, the header's brackets, then for angles what is said of all of them.
   std::string_view written = stated.empty() ? header.unit : stated;
   if (written.empty() && is_angle(column)) written = options_.angles;
   const std::string what =
       fmt::format("{}: the column '{}' ({})", where(log_, row_.line), shown(header.text), columns.called(column));
   if (written.empty()) {
     const std::string meant = unit_in_name(header.name, column, options_.unit);
+    // A length whose name ends in a unit, as dist_mm: while the part's unit is not known it may be that one.
     const bool may_be_the_parts = column != Column::u && !is_angle(column) && column != Column::time;
     if (meant.empty() || (may_be_the_parts && options_.unit.empty())) return;
     throw InputError(fmt::format(
@@ -246,6 +276,7 @@ void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& h
   columns.source[static_cast<std::size_t>(column)].unit = written;
   if (column == Column::u) columns.u_dimension = unit->dimension;
   Conversion& to = columns.conversion[static_cast<std::size_t>(column)];
+  // Angles become radians and times seconds; lengths need to know the part's unit.
   if (unit->dimension != Dimension::length) {
     to = conversion_to_plain(*unit);
   } else if (!options_.unit.empty()) {
@@ -256,19 +287,21 @@ void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& h
   }
 }
 
-/// The cell of the name that the options give.
+/// The cell of the name that the options give, with or without its unit. Throws InputError: there is none.
 std::size_t HeaderReader::find(const ColumnSource& source) const {
   for (std::size_t k = 0; k < names_.size(); ++k) {
     if (names_[k].text == source.name || names_[k].name == source.name) return k;
   }
   std::vector<std::string> names;
   for (const HeaderName& one : names_) names.emplace_back(one.name);
+  // A typo is likely: the nearest name goes into the message.
   const std::string nearest = nearest_name(source.name, names);
   throw InputError(fmt::format("{}: expected a column '{}' for {} (`columns`), found none{}; the header has {}",
                                where(log_, row_.line), source.name, source.column,
                                nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), all_names()));
 }
 
+/// The names in the header, for messages; of long headers the first ones.
 std::string HeaderReader::all_names() const {
   constexpr std::size_t kMost = 30;
   std::vector<std::string> names;
@@ -282,13 +315,16 @@ LogKind HeaderReader::kind_of(const Columns& columns) const {
   for (const ColumnPair& pair : kColumnPairs) {
     const bool has_place = columns.has(pair.place);
     if (has_place != columns.has(pair.angle)) {
+      // psi with x and y, and no u: the log of a wheel that was given as a finger's.
       const bool is_wheels = pair.angle == Column::psi && !has_place && columns.has(Column::x);
       throw InputError(fmt::format("{} has a column '{}' but no '{}', expected both{}{}{}", start(),
                                    columns.called(has_place ? pair.place : pair.angle),
                                    columns.called(has_place ? pair.angle : pair.place), hint(columns), cure(columns),
                                    is_wheels ? kOfWheel : ""));
     }
+    // Neither of this pair.
     if (!has_place) continue;
+    // Two pairs, which may contradict each other: the user has to choose.
     if (found != nullptr) {
       throw InputError(fmt::format(
           "{}: the header has '{}' and '{}' as well as '{}' and '{}', expected only one of these pairs; rename the "
@@ -310,6 +346,7 @@ std::string HeaderReader::hint(const Columns& columns) const {
     const bool is_word = std::string_view(kColumnNames[k]).size() > 1;
     if (is_word && columns.cell[k] == Columns::kNone) missing.push_back(columns.called(static_cast<Column>(k)));
   }
+  // Names that are known, or the other finger's, are no typos.
   for (const HeaderName& one : names_) {
     if (is_known(one.name) || (!columns.suffix.empty() && says_where_of_one_of_two(one.name))) continue;
     const std::string nearest = nearest_name(std::string(one.name), missing);
@@ -318,8 +355,10 @@ std::string HeaderReader::hint(const Columns& columns) const {
   return "";
 }
 
-/// The option that says it.
+/// What to type so that the header is understood: the option with guesses. If all names are known no option helps, and
+/// the header is shown.
 std::string HeaderReader::cure(const Columns& columns) const {
+  // Without an unknown name there is nothing to guess from.
   const bool any_is_left =
       std::any_of(names_.begin(), names_.end(), [](const HeaderName& one) { return !is_known(one.name); });
   if (!any_is_left) return fmt::format("; the header has {}", all_names());
@@ -328,9 +367,11 @@ std::string HeaderReader::cure(const Columns& columns) const {
                      columns.suffix.empty() ? "; touches without rolling have x and y alone" : "");
 }
 
+/// Throws InputError: the header has none of the pairs, of this finger or at all.
 void HeaderReader::refuse(const Columns& columns) const {
   if (!columns.suffix.empty()) {
     const bool is_a = columns.suffix == kFingerSuffixes[0];
+    // If no name sounds like the missing finger's, the log is likely of one finger alone.
     const bool is_of_one = !holds_columns_of(names_, is_a ? 0 : 1);
     const std::string of_one = fmt::format("; of one finger alone say `columns` {} (the header has {})",
                                            suggested_columns(names_, {}), all_names());
@@ -359,7 +400,8 @@ Columns pin_columns_of(const TableRow& header, const std::string& log, const Log
 
 namespace {
 
-/// No finger turns by half a turn from one row to the next: so large a number is a place.
+/// A note where two columns without a header look like x, y of touches rather than distance, dturn; else empty. Few
+/// fingers turn by more than half a turn from one row to the next: so large a number is likely a place.
 std::string note_of_touches(const TableRow& row, const Columns& columns) {
   const auto turn = static_cast<std::size_t>(Column::dturn);
   const std::optional<double> value = parse_number(row.cells[1]);
@@ -373,6 +415,7 @@ std::string note_of_touches(const TableRow& row, const Columns& columns) {
 }  // namespace
 
 Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options) {
+  // Names need a header to be looked for in.
   if (!options.columns.empty()) {
     throw InputError(
         fmt::format("{}: the log starts with '{}', numbers, expected a header with the names that "
@@ -385,6 +428,7 @@ Columns bare_columns(const TableRow& row, const std::string& log, const LogOptio
         "columns, distance and dturn; touched places are named x,y. Known are: {}",
         where(log, row.line), shown(row.text), row.cells.size(), kExpected, fmt::join(kColumnNames, ", ")));
   }
+  // Without a header: two columns of increments, as a wheel encoder with a gyroscope writes them.
   Columns columns;
   columns.count = 2;
   columns.kind = LogKind::increments;
