@@ -46,6 +46,7 @@ constexpr std::size_t kMostCuts = 24;
 // A roll that gains less than this share of the bits wanted is no help.
 constexpr double kHelp = 0.05;
 
+/// Throws InputError for no places, places of one finger and of two together, and options out of range.
 void require_valid(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
   if (hypotheses.empty()) throw InputError("advise: expected at least one place where the contact may be, found none");
   for (const PartHypothesis& one : hypotheses) {
@@ -65,6 +66,7 @@ void require_valid(const std::vector<PartHypothesis>& hypotheses, const AdviceOp
   }
 }
 
+/// Fewer placements remain; of equally many the one with more bits.
 bool is_better(const ExpectedGain& one, const ExpectedGain& other) {
   if (one.placements != other.placements) return one.placements < other.placements;
   return one.bits > other.bits;
@@ -78,6 +80,7 @@ struct Trial {
     const auto part_of = [&](double whole, std::size_t k) {
       return whole * static_cast<double>(k) / static_cast<double>(steps);
     };
+    // Back and forward each from 0 outwards, as Comparison asks; the gains are then put in order of length.
     for (std::size_t k = 1; k <= steps && way.travel.lo < 0; ++k) {
       gains.push_back(back.roll_to(part_of(way.travel.lo, k)));
     }
@@ -90,6 +93,7 @@ struct Trial {
     for (const ExpectedGain& gain : gains) {
       if (is_better(gain, most)) most = gain;
     }
+    // Only after both comparisons are done: it reads after which travel each place is told.
     to_go = std::make_unique<Travel>(hypotheses, back, forward);
     for (ExpectedGain& gain : gains) gain.travel = to_go->after(gain.length);
   }
@@ -100,8 +104,10 @@ struct Trial {
   }
 
   Way way;
+  /// on this way below 0, and above it
   Comparison back;
   Comparison forward;
+  /// by growing length
   std::vector<ExpectedGain> gains;
   std::size_t here = 0;  // index of the roll of length 0
   ExpectedGain most;     // the one that tells most
@@ -116,13 +122,16 @@ struct Choice {
 
 /// The roll after which, itself included, the least travel is to be expected, of those that may be enough.
 Choice least_travel(const Trial& trial, double one_roll) {
+  // The probability that after each roll some place is still open that this way can settle.
   std::vector<double> open;
   for (const ExpectedGain& gain : trial.gains) open.push_back(trial.to_go->open_after(gain.length));
   const double least_open = *std::min_element(open.begin(), open.end());
   Choice choice;
   for (std::size_t k = 0; k < trial.gains.size(); ++k) {
     const ExpectedGain& gain = trial.gains[k];
+    // The roll itself, and a further one with the probability that something is left.
     const double cost = gain.travel + one_roll * (1 + open[k]);
+    // Of the probability that some roll settles at least 1 - kMostOpen.
     const bool is_enough = open[k] <= least_open + kMostOpen * (1 - least_open);
     if (gain.length != 0 && is_enough && cost < choice.cost) choice = {k, cost};
   }
@@ -137,6 +146,7 @@ std::size_t shortest_as_good_as(const Trial& trial) {
     const bool is_enough =
         gain.bits >= kNearlyAll * trial.most.bits && gain.placements <= trial.most.placements + kNearlyAsFew;
     if (!is_enough) continue;
+    // Of equally good rolls the shortest; to stay only if no roll is as good.
     const bool is_first = best == trial.here && trial.here != k;
     if (is_first || std::abs(gain.length) < std::abs(trial.gains[best].length)) best = k;
   }
@@ -147,17 +157,22 @@ std::size_t shortest_as_good_as(const Trial& trial) {
 double travel_elsewhere(const std::vector<PartHypothesis>& hypotheses, const std::list<Trial>& trials,
                         const Trial& trial, double one_roll) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
+  /// The least travel on any of the ways that tells j from i.
   const auto elsewhere = [&](std::size_t i, std::size_t j, std::size_t how) {
     double least = kNever;
     for (const Trial& other : trials) least = std::min(least, other.told(i, j, how));
     return least;
   };
+  // the mean over the true place
   double sum = 0;
   for (std::size_t i = 0; i < hypotheses.size() && trials.size() > 1; ++i) {
+    // If i is the true one: one travel on another way tells all that is nearer on it too.
     double farthest = 0;
     for (std::size_t j = 0; j < hypotheses.size(); ++j) {
+      // Only what this way never tells for sure.
       if (!trial.to_go->matters(i, j) || trial.told(i, j, 0) < kNever) continue;
       double travel = elsewhere(i, j, 0);
+      // In part only where neither this way nor another one tells more.
       if (travel == kNever && trial.told(i, j, 1) == kNever) travel = elsewhere(i, j, 1);
       if (travel < kNever) farthest = std::max(farthest, travel + one_roll);
     }
@@ -170,10 +185,13 @@ double travel_elsewhere(const std::vector<PartHypothesis>& hypotheses, const std
 std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& hypotheses,
                                             const std::list<Trial>& trials) {
   const double one_roll = kOneRoll * advising::shortest_perimeter(hypotheses);
+  // The way whose best roll costs least, what is left for the other ways included.
   const Trial* best = nullptr;
   Choice choice;
   for (const Trial& trial : trials) {
+    // A way that tells nothing costs nothing, and must not be chosen for it.
     if (!trial.to_go->tells_any()) continue;
+    // cost of this way: its own travel, and what is left to do on others
     Choice on_this = least_travel(trial, one_roll);
     on_this.cost += travel_elsewhere(hypotheses, trials, trial, one_roll);
     if (best != nullptr && on_this.cost >= choice.cost) continue;
@@ -181,6 +199,7 @@ std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& h
     choice = on_this;
   }
   if (best != nullptr) return {best, choice.best};
+  // No way tells any two places apart, for sure or in part: the one that gains most.
   best = &*std::min_element(trials.begin(), trials.end(),
                             [](const Trial& a, const Trial& b) { return is_better(a.most, b.most); });
   return {best, shortest_as_good_as(*best)};
@@ -201,11 +220,15 @@ std::pair<const Trial*, std::size_t> chosen_of_possible(const std::vector<PartHy
   for (std::size_t cut = 0;; ++cut) {
     const std::pair<const Trial*, std::size_t> now = chosen(hypotheses, trials);
     const Trial* const best = now.first;
+    // With sign: below 0 back.
     const double length = best->gains[now.second].length;
     if (!options.can_roll || length == 0 || can_do(hypotheses, options, best->way.rolled(length))) return now;
+    // The way is looked at anew, up to a share of the roll that can't be done. Each turn of the loop makes one way
+    // shorter, so that it ends.
     const auto at = std::find_if(trials.begin(), trials.end(), [&](const Trial& one) { return &one == best; });
     Way way = at->way;
     (length < 0 ? way.travel.lo : way.travel.hi) = kShorter * length;
+    // Enough cuts: this way is given up.
     if (cut >= kMostCuts) way.travel = {0, 0};
     trials.emplace(at, hypotheses, options, way);
     trials.erase(at);
@@ -214,11 +237,13 @@ std::pair<const Trial*, std::size_t> chosen_of_possible(const std::vector<PartHy
 
 /// Of two fingers the likeliest, where they are too many.
 std::vector<PartHypothesis> compared(std::vector<PartHypothesis> hypotheses) {
+  // One finger has one way only: all of its places are compared.
   if (hypotheses.front().hypothesis.place.size() == 1 || hypotheses.size() <= kMostPairs) return hypotheses;
   std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const PartHypothesis& a, const PartHypothesis& b) {
     return a.hypothesis.probability > b.hypothesis.probability;
   });
   hypotheses.resize(kMostPairs);
+  // Their probabilities add up to 1 again.
   double total = 0;
   for (const PartHypothesis& one : hypotheses) total += one.hypothesis.probability;
   for (PartHypothesis& one : hypotheses) one.hypothesis.probability /= total;
@@ -227,6 +252,7 @@ std::vector<PartHypothesis> compared(std::vector<PartHypothesis> hypotheses) {
 
 }  // namespace
 
+/// Theta(p + L) - Theta(p), radians; of two fingers that of a less that of b.
 double turn_ahead(const Part& part, const Hypothesis& hypothesis, const PerFinger<double>& lengths) {
   const auto turn = [&](std::size_t finger) {
     const double from = hypothesis.place[finger];
@@ -236,11 +262,13 @@ double turn_ahead(const Part& part, const Hypothesis& hypothesis, const PerFinge
 }
 
 Advice advise(const Part& part, const std::vector<Hypothesis>& hypotheses, const AdviceOptions& options) {
+  // One part for all, and its reach.
   std::vector<PartHypothesis> on_part;
   for (const Hypothesis& hypothesis : hypotheses) on_part.push_back({&part, options.reach, hypothesis});
   return advise(on_part, options);
 }
 
+/// Every way with all its rolls is tried; the choice is between them. The time grows with the square of the hypotheses.
 Advice advise(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
   require_valid(hypotheses, options);
   const std::vector<PartHypothesis> some = compared(hypotheses);
@@ -249,6 +277,7 @@ Advice advise(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions
   std::list<Trial> trials;
   for (const Way& way : advising::ways_of(some, options)) trials.emplace_back(some, options, way);
   const auto [trial, best] = chosen_of_possible(some, options, trials);
+  // A roll helps if any way gains a noticeable part of the bits, and the chosen one is not to stay.
   double most_bits = 0;
   for (const Trial& each : trials) most_bits = std::max(most_bits, each.most.bits);
   Advice advice;

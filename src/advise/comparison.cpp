@@ -36,16 +36,19 @@ constexpr std::size_t kLooks = 64;
 /// The lengths over which this finger can roll in every hypothesis that counts.
 Interval common_travel(const std::vector<PartHypothesis>& hypotheses, const std::optional<Interval>& wanted,
                        std::size_t finger) {
+  // One lap either way, if nothing else is said.
   const double shortest = shortest_perimeter(hypotheses);
   Interval travel = wanted.value_or(Interval{-shortest, shortest});
   const double least = least_that_counts(hypotheses);
   for (const PartHypothesis& one : hypotheses) {
     if (one.hypothesis.probability < least) continue;
     const double place = one.hypothesis.place[finger];
+    // An open part ends.
     if (!one.part->closed()) {
       travel.lo = std::max(travel.lo, -place);
       travel.hi = std::min(travel.hi, one.part->perimeter() - place);
     }
+    // Within the arc of the part that holds the place; a place off every arc sets no bound, as it is not known better.
     const Reach* const reach = one.reach[finger];
     if (reach == nullptr || reach->whole_loop) continue;
     const std::optional<Interval> arc = reach->arc_at(place);
@@ -62,6 +65,7 @@ Vec2 disk_at(const Part& part, double s, double radius) {
   return part.point(s) + radius * Vec2(std::sin(tangent), -std::cos(tangent));
 }
 
+/// Whether two disks would be in one another after a roll to x from a hypothesis. Exact at x, nothing in between.
 bool overlap(const PartHypothesis& one, const PerFinger<double>& disks, const Way& way, double x) {
   const auto centre = [&](std::size_t finger) {
     return disk_at(*one.part, one.hypothesis.place[finger] + x * way.direction[finger], disks[finger]);
@@ -75,6 +79,7 @@ void stop_at_overlap(const std::vector<PartHypothesis>& hypotheses, const PerFin
   const double least = least_that_counts(hypotheses);
   for (const PartHypothesis& one : hypotheses) {
     if (one.hypothesis.probability < least || overlap(one, disks, way, 0)) continue;
+    // From 0 outwards: the last step before the first overlap.
     for (double* const end : {&way.travel.lo, &way.travel.hi}) {
       const double whole = *end;
       for (std::size_t k = 1; k <= kLooks; ++k) {
@@ -92,6 +97,7 @@ Interval travel_on(const PerFinger<double>& direction, const std::array<Interval
   Interval travel{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (const std::size_t finger : {0U, 1U}) {
     if (direction[finger] == 0) continue;
+    // In x: each finger's travel over its share of the roll; a direction below 0 exchanges the ends.
     const double a = each[finger].lo / direction[finger];
     const double b = each[finger].hi / direction[finger];
     travel = {std::max(travel.lo, std::min(a, b)), std::min(travel.hi, std::max(a, b))};
@@ -105,6 +111,7 @@ constexpr double kInPart = 0.5;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Squared: from there on a place is left with less probability, beside the true one, than counts.
+/// From p_other exp(-d^2 / 2) < kLeastProbability p_true. At least slightly above 0 where the other counts for nothing.
 double distance_wanted(double of_true, double of_other) {
   return 2 * std::log(std::max(of_other / (kLeastProbability * of_true), 1 + kLeastProbability));
 }
@@ -131,12 +138,14 @@ double least_that_counts(const std::vector<PartHypothesis>& hypotheses) {
   return least_of(std::move(each));
 }
 
+/// Of two fingers kWaysOfTwo, each as far as both can roll; other motions as the options give them.
 std::vector<Way> ways_of(const std::vector<PartHypothesis>& hypotheses, const AdviceOptions& options) {
   if (options.foresees) {
     std::vector<Way> given;
     for (const auto& [direction, travel] : options.ways) given.push_back({direction, travel});
     return given;
   }
+  // One finger has one way: on and back.
   const Interval of_a = common_travel(hypotheses, options.travel, 0);
   if (hypotheses.front().hypothesis.place.size() == 1) return {Way{1.0, of_a}};
   const std::array<Interval, 2> each = {of_a, common_travel(hypotheses, options.travel, 1)};
@@ -149,6 +158,7 @@ std::vector<Way> ways_of(const std::vector<PartHypothesis>& hypotheses, const Ad
   return ways;
 }
 
+/// H in bits.
 double entropy(const std::vector<double>& weights) {
   double bits = 0;
   for (const double p : weights) {
@@ -168,6 +178,7 @@ Comparison::Comparison(const std::vector<PartHypothesis>& hypotheses, const Advi
     : hypotheses_(hypotheses), options_(options), direction_(direction) {
   const std::size_t n = hypotheses.size();
   distance_.assign(n * n, 0);
+  // not told at any travel yet
   told_.assign(n * n, {kNever, kNever});
   for (const PartHypothesis& one : hypotheses) {
     PerFinger<Turning>& start = start_.emplace_back(PerFinger<Turning>::of(direction.size()));
@@ -175,6 +186,7 @@ Comparison::Comparison(const std::vector<PartHypothesis>& hypotheses, const Advi
   }
 }
 
+/// Places on the way are asked for in order, from 0 outwards: what was told stays told.
 ExpectedGain Comparison::roll_to(double x) {
   compare_at(x);
   note_told(std::abs(x));
@@ -188,23 +200,30 @@ Comparison::Seen Comparison::seen_by(std::size_t hypothesis, double x) const {
     const Foreseen foreseen = options_.foresees(one, Way{direction_, {}}.rolled(x));
     return {foreseen.value, foreseen.variance};
   }
+  // The turn's own error, averaged over the rows read at about the same place.
   Seen seen{0, belief::square(options_.turn_sd) / options_.rows};
   PerFinger<double> by_place = PerFinger<double>::of(direction_.size());
   for (std::size_t k = 0; k < direction_.size(); ++k) {
     const double length = x * direction_[k];
+    // y_i = Theta(p_i + x) - Theta(p_i): what this place would measure.
     const Turning now = one.part->turning().at(one.hypothesis.place[k] + length);
     const Turning& start = start_[hypothesis][k];
     seen.turn += sign_of(k) * (now.angle - start.angle);
+    // d turn / d place
     by_place[k] = sign_of(k) * (now.curvature - start.curvature);
+    // A length that is off turns the tangent by kappa times as much; a place that is off, by kappa at the end less that
+    // at the start.
     seen.variance +=
         (belief::square(options_.length_sd) / options_.rows + belief::square(options_.length_share_sd * length)) *
             belief::square(now.curvature) +
         belief::square(one.hypothesis.sd[k] * by_place[k]);
   }
+  // The places of both fingers are off together.
   if (direction_.size() == 2) seen.variance += 2 * by_place[0] * by_place[1] * one.hypothesis.covariance;
   return seen;
 }
 
+/// Adds x to the distances: d_ij^2 only grows.
 void Comparison::compare_at(double x) {
   const std::size_t n = hypotheses_.size();
   std::vector<Seen> seen;
@@ -220,10 +239,12 @@ void Comparison::compare_at(double x) {
   }
 }
 
+/// Notes the travel for each pair (i, j) the first time that its distance is enough: in full, and in part.
 void Comparison::note_told(double travel) {
   const std::size_t n = hypotheses_.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
+      // [0] for sure, [1] in part
       std::array<double, 2>& told = told_[i * n + j];
       if (told[0] < kNever) continue;
       const double wanted =
@@ -235,15 +256,18 @@ void Comparison::note_told(double travel) {
   }
 }
 
+/// bits and placements, each the mean over the place that is the true one.
 ExpectedGain Comparison::expected(double x) const {
   const std::size_t n = hypotheses_.size();
   std::vector<double> prior(n);
+  // one more than the largest
   std::size_t labels = 0;
   for (std::size_t i = 0; i < n; ++i) {
     prior[i] = hypotheses_[i].hypothesis.probability;
     labels = std::max(labels, hypotheses_[i].hypothesis.label + 1);
   }
   ExpectedGain gain{x, 0, entropy(prior)};
+  // q_j, and their sums over each placement
   std::vector<double> left(n);
   std::vector<double> of_label(labels);
   for (std::size_t i = 0; i < n; ++i) {
@@ -255,18 +279,23 @@ ExpectedGain Comparison::expected(double x) const {
       left[j] /= total;
       of_label[hypotheses_[j].hypothesis.label] += left[j];
     }
+    // What is left of the entropy if i is the true one, weighed by p_i.
     gain.bits -= prior[i] * entropy(left);
+    // Placements and not hypotheses: of a wide placement several places are one.
     const double least = least_of(of_label);
+    // how many placements remain if i is the true one
     const auto counts = std::count_if(of_label.begin(), of_label.end(), [&](double p) { return p >= least; });
     gain.placements += prior[i] * static_cast<double>(counts);
   }
   return gain;
 }
 
+/// The lists of all places that have to be told from each true one, with the travel that tells them.
 Travel::Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward)
     : hypotheses_(hypotheses), back_(back), forward_(forward) {
   const std::size_t n = hypotheses.size();
   others_.resize(n);
+  // Probabilities of placements: whether one counts is decided by the placement, not by its parts.
   for (const PartHypothesis& one : hypotheses) of_label_[one.hypothesis.label] += one.hypothesis.probability;
   std::vector<double> each;
   for (const auto& [label, probability] : of_label_) each.push_back(probability);
@@ -280,6 +309,7 @@ bool Travel::tells_any() const {
   return std::any_of(others_.begin(), others_.end(), [](const auto& others) { return !others.empty(); });
 }
 
+/// The mean over the true place, first on and then back, or the reverse: whoever decides does not know which it is.
 double Travel::after(double x) const {
   double on = 0;
   double back = 0;
@@ -301,6 +331,7 @@ double Travel::open_after(double x) const {
 
 bool Travel::matters(std::size_t i, std::size_t j) const { return i != j && !are_one_place(i, j) && counts(j); }
 
+/// For sure, if some travel tells it so; else in part; else it can't be told on this way and is left out.
 void Travel::add_other(std::size_t i, std::size_t j) {
   if (!matters(i, j)) return;
   for (std::size_t how = 0; how < 2; ++how) {
@@ -316,6 +347,7 @@ bool Travel::are_one_place(std::size_t i, std::size_t j) const {
   const Part& part = *hypotheses_[i].part;
   const Hypothesis& one = hypotheses_[i].hypothesis;
   const Hypothesis& other = hypotheses_[j].hypothesis;
+  // Two placements always have to be told apart, however near to each other.
   if (one.label != other.label) return false;
   for (std::size_t k = 0; k < one.place.size(); ++k) {
     if (part.boundary().distance(one.place[k], other.place[k]) >= kOnePlace * part.perimeter()) return false;
@@ -323,6 +355,7 @@ bool Travel::are_one_place(std::size_t i, std::size_t j) const {
   return true;
 }
 
+/// On the side that was rolled: what the other side would tell is still open.
 bool Travel::is_open_after(std::size_t i, double x) const {
   return std::any_of(others_[i].begin(), others_[i].end(),
                      [&](const Other& other) { return x == 0 || (x > 0 ? other.forward : other.back) > std::abs(x); });
@@ -335,6 +368,7 @@ std::array<double, 2> Travel::left_after(std::size_t i, double x) const {
   std::vector<Other> left;  // seen from here: those not told yet, on the same way and on the other one
   Other only{0, 0};         // ... those that one way alone tells
   for (Other other : others_[i]) {
+    // Seen in the direction of the roll, `forward` is on.
     if (x < 0) std::swap(other.forward, other.back);
     if (x != 0 && other.forward <= rolled) continue;
     left.push_back(other);
@@ -342,6 +376,7 @@ std::array<double, 2> Travel::left_after(std::size_t i, double x) const {
     if (other.forward == kNotTold) only.back = std::max(only.back, other.back);
   }
   if (left.empty()) return {0, 0};
+  // Both ends have to be visited for `only`. What either way tells is added to the one end, and to the other.
   Other mostly_on = only;
   Other mostly_back = only;
   for (const Other& other : left) {
@@ -352,7 +387,9 @@ std::array<double, 2> Travel::left_after(std::size_t i, double x) const {
 }
 
 /// To both ends, from a place that far ahead of where both are counted from.
+/// Whichever end comes first is passed twice: the nearer one.
 double Travel::shorter_way(const Other& ends, double rolled) {
+  // Both ends are counted from where the roll began; the finger is `rolled` ahead of it, and has that much back to go.
   const double on = std::max(ends.forward - rolled, 0.0);
   const double back = ends.back > 0 ? ends.back + rolled : 0;
   return on + back + std::min(on, back);

@@ -43,13 +43,18 @@ class Comparison {
 
  private:
   struct Seen {
+    // y_i, radians; of other motions what is foreseen
     double turn = 0;
     double variance = 0;
   };
 
+  /// What place i would measure at x.
   Seen seen_by(std::size_t hypothesis, double x) const;
+  /// Enlarges the distances by those at x.
   void compare_at(double x);
+  /// Notes which pairs are told by now.
   void note_told(double travel);
+  /// The gain of a roll that ends at x, by the distances so far.
   ExpectedGain expected(double x) const;
 
   const std::vector<PartHypothesis>& hypotheses_;
@@ -57,10 +62,13 @@ class Comparison {
   PerFinger<double> direction_;
   std::vector<double> distance_;             // squared, of each pair
   std::vector<std::array<double, 2>> told_;  // of each pair, the first of which is the true one
+  /// Theta and kappa of each place at its contacts now
   std::vector<PerFinger<Turning>> start_;
 };
 
+/// -sum p log2 p, bits. `weights` add up to 1.
 double entropy(const std::vector<double>& weights);
+/// Of the parts that the hypotheses are on, length.
 double shortest_perimeter(const std::vector<PartHypothesis>& hypotheses);
 
 /// What is still to be travelled after a roll, for the place where the contact is to be told from the others.
@@ -68,6 +76,7 @@ class Travel {
  public:
   Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward);
 
+  /// Whether any place is told from another on this way, for sure or in part.
   bool tells_any() const;
   /// After a roll to x: what is to be expected until all are told apart that can be, this roll included. Which of the
   /// others is the true one is not known by whoever decides to roll on, or back: one way for all.

@@ -41,6 +41,7 @@ constexpr std::array<double, 7> kSevenDeviates = {-1.465, -0.792, -0.366, 0, 0.3
 std::vector<Hypothesis> without_noise(const Part& part, const std::vector<Placement>& placements) {
   std::vector<Hypothesis> hypotheses;
   for (std::size_t k = 0; k < placements.size(); ++k) {
+    // of starts; `rolled` brings them to where the contact is now
     const Interval& extent = placements[k].extent[0];
     const PerFinger<double>& end = placements[k].end;
     const double share = 1 / static_cast<double>(placements.size());
@@ -50,6 +51,7 @@ std::vector<Hypothesis> without_noise(const Part& part, const std::vector<Placem
       hypotheses.push_back({end, PerFinger<double>::of(end.size()), share, k});
       continue;
     }
+    // The middles of equal pieces of the extent, all as probable.
     for (std::size_t i = 0; i < kOfAWidePlacement; ++i) {
       const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(kOfAWidePlacement);
       const double s = extent.lo + t * extent.width() + rolled;
@@ -62,11 +64,14 @@ std::vector<Hypothesis> without_noise(const Part& part, const std::vector<Placem
 /// Of two fingers, along the direction in which they are known worst: as many pairs of places of the same probability.
 void add_along_ridge(const Part& part, const Hypothesis& whole, std::vector<Hypothesis>& hypotheses) {
   Mat2 covariance;
+  // of both places; its longest axis is the ridge
   covariance << whole.sd[0] * whole.sd[0], whole.covariance, whole.covariance, whole.sd[1] * whole.sd[1];
   Eigen::SelfAdjointEigenSolver<Mat2> axes;  // the larger one last
   axes.computeDirect(covariance);
+  // standard deviation along the ridge, length
   const double along = std::sqrt(std::max(0.0, axes.eigenvalues()(1)));
   const Vec2 axis = axes.eigenvectors().col(1);
+  // As many hypotheses as deviates, each with the same part of the probability.
   constexpr auto kPieces = static_cast<double>(kSevenDeviates.size());
   // What is left within each of them: as much less along the ridge as there are of them.
   const Mat2 within = covariance - (1 - 1 / (kPieces * kPieces)) * along * along * axis * axis.transpose();
@@ -86,6 +91,7 @@ void add_along_ridge(const Part& part, const Hypothesis& whole, std::vector<Hypo
 /// The covariance of where the contacts are now: the errors that both places share are those of the first contacts.
 template <class Remaining>
 double covariance_now(const Remaining& one) {
+  // The correlation at the first contacts is kept; the standard deviations are those of now.
   const double first = one.sd[0] * one.sd[1];
   if (one.sd.size() < 2 || !(first > 0)) return 0;
   return one.covariance(0, 1) / first * one.end_sd[0] * one.end_sd[1];
@@ -98,7 +104,9 @@ std::vector<Hypothesis> with_noise(const Part& part, const std::vector<Remaining
   double total = 0;
   for (const Remaining& one : all) total += one.probability;
   for (std::size_t k = 0; k < all.size(); ++k) {
+    // The whole mode as one hypothesis, if it is narrow.
     const Hypothesis whole{all[k].end_mean, all[k].end_sd, all[k].probability / total, k, covariance_now(all[k])};
+    // of the fingers' standard deviations
     double widest = 0;
     for (const double sd : whole.sd) widest = std::max(widest, sd);
     if (widest < kWideSpread * part.perimeter()) {
@@ -111,6 +119,7 @@ std::vector<Hypothesis> with_noise(const Part& part, const std::vector<Remaining
     }
     // As many places of the same probability, as if it were normal.
     for (const double deviate : kSevenDeviates) {
+      // Within each a seventh of the mode's standard deviation is left.
       const double place = part.boundary().base(whole.place[0] + deviate * whole.sd[0]);
       hypotheses.push_back({place, whole.sd[0] / kSevenDeviates.size(), whole.probability / kSevenDeviates.size(), k});
     }
@@ -125,6 +134,7 @@ constexpr std::size_t kPlacesOfEach = 9;
 /// A place at which the fingers may be, however they will be there.
 Placement at(const Part& part, const PerFinger<double>& s) {
   Placement placement;
+  // A pretended find at s, without a roll: start and end are one.
   placement.kind = Kind::crossing;
   placement.start = placement.end = s;
   placement.extent = PerFinger<Interval>::of(s.size());
@@ -135,8 +145,10 @@ Placement at(const Part& part, const PerFinger<double>& s) {
   return placement;
 }
 
+/// Evenly spread places, or for two fingers pairs of them, in the order of s.
 std::vector<Placement> places_before(const Part& part, std::size_t fingers) {
   std::vector<Placement> places;
+  // Of two fingers 9 times 9 pairs.
   const std::size_t of_each = fingers == 1 ? kPlacesBefore : kPlacesOfEach;
   const double step = part.perimeter() / static_cast<double>(of_each);
   for (std::size_t i = 0; i < of_each; ++i) {
@@ -160,11 +172,13 @@ constexpr double kTogether = 0.1;
 /// Why a part can't be told apart from itself.
 std::string why_no_roll(const Part& part) {
   const int fold = symmetry(part);
+  // A circle: from any place it looks the same.
   if (fold == 0) return "the part looks the same from every place on its boundary";
   if (fold > 1) return fmt::format("the part looks the same from {} places", fold);
   return "within the travel the places that remain look alike";
 }
 
+/// Throws InputError where `plan` can't be asked: one finger, or other fingers than disks and jaws.
 void require_fingers_to_plan(const Answer& answer) {
   if (answer.finger_count() < 2) {
     throw InputError("friction: one finger on a part at rest needs none to roll: leave it out");
@@ -177,7 +191,8 @@ void require_fingers_to_plan(const Answer& answer) {
   }
 }
 
-/// Next to nothing: where that can't be planned the part could not be held, so that it is not the true place.
+/// A thousandth of a roll: where even that can't be planned the part could not be held, so that it is not the true
+/// place.
 PerFinger<double> hardly(PerFinger<double> by) {
   constexpr double kHardly = 1e-3;
   for (double& length : by) length *= kHardly;
@@ -187,6 +202,7 @@ PerFinger<double> hardly(PerFinger<double> by) {
 /// Why two fingers can't roll on by these lengths from a place; nothing: they can.
 std::optional<std::string> why_not_planned(const Answer& answer, const Hypothesis& from, const PerFinger<double>& by,
                                            const PerFinger<double>& friction) {
+  // Both fingers as they are in the answer, from this place, with these lengths: what `plan` is asked.
   PlanProblem problem{answer.part, PerFinger<PlanFinger>(PlanFinger{}, PlanFinger{})};
   for (std::size_t k = 0; k < 2; ++k) {
     PlanFinger& finger = problem.fingers[k];
@@ -200,6 +216,7 @@ std::optional<std::string> why_not_planned(const Answer& answer, const Hypothesi
 
 }  // namespace
 
+/// Without noise a placement has no probability: it is not a number.
 std::vector<Hypothesis> hypotheses_of(const Part& part, const std::vector<Placement>& placements) {
   const bool has_noise = !placements.empty() && !std::isnan(placements.front().probability);
   return has_noise ? with_noise(part, placements) : without_noise(part, placements);
@@ -216,14 +233,17 @@ Answer before_contact(const Part& part, const std::vector<Finger>& fingers, cons
   }
   for (const Finger& finger : fingers) require_valid(finger);
   Answer answer{part, fingers};
+  // A reading of length 0: the contacts are where they start.
   Reading none;
   none.length = PerFinger<double>::of(fingers.size());
   answer.readings = {none};
+  // All of them fit: nothing is measured yet.
   answer.placements = places_before(part, fingers.size());
   if (noise) {
     answer.weighing = Weighing{};
     answer.weighing->noise = *noise;
   }
+  // Of places the finger can't touch nothing needs to be told apart.
   if (std::all_of(fingers.begin(), fingers.end(), has_reach)) {
     PerFinger<Reach> reach = PerFinger<Reach>::of(fingers.size());
     for (std::size_t k = 0; k < fingers.size(); ++k) reach[k] = reach_of(part, fingers[k]);
@@ -234,6 +254,7 @@ Answer before_contact(const Part& part, const std::vector<Finger>& fingers, cons
   return answer;
 }
 
+/// The answer's noise as errors of turns and lengths; without noise a turn's sd is kTurnSd, and lengths are exact.
 AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel) {
   AdviceOptions options;
   options.turn_sd = kTurnSd;
@@ -242,8 +263,11 @@ AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>
     // From one row to another: the errors of both, of each finger.
     double turn_variance = 0;
     for (std::size_t k = 0; k < answer.finger_count(); ++k) {
+      // 1 / r of a disk: a contact that is off on the finger turns its normal by that.
       const double curvature = answer.fingers.empty() ? 0 : finger_of(answer.fingers, k)->curvature(0);
+      // N + psi at both rows: psi by `angle`, N by the contact's error times the finger's curvature
       turn_variance += 2 * (std::pow(noise.angle, 2) + std::pow(noise.contact * curvature, 2));
+      // Slip and a wrong radius are in proportion to the length.
       options.length_share_sd = std::max(options.length_share_sd, std::hypot(noise.slip, noise.radius * curvature));
     }
     options.turn_sd = std::max(std::sqrt(turn_variance), kTurnAccuracy);
@@ -254,6 +278,7 @@ AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>
   return options;
 }
 
+/// Reaches of the fingers for which one is known, disks and jaws.
 ReachForAdvice::ReachForAdvice(const Answer& answer) {
   for (std::size_t k = 0; k < answer.finger_count(); ++k) {
     const Finger* const finger = finger_of(answer.fingers, k);
@@ -267,6 +292,7 @@ PerFinger<const Reach*> ReachForAdvice::pointers() const {
   return pointers;
 }
 
+/// Other shapes than disks are not looked at: nothing.
 std::optional<PerFinger<double>> disks_for_advice(const Answer& answer, bool may_overlap) {
   if (answer.finger_count() < 2 || may_overlap) return std::nullopt;
   PerFinger<double> radii(0, 0);
@@ -296,18 +322,22 @@ NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel, 
   }
   AdviceOptions options = advice_options(answer, travel);
   const ReachForAdvice reach(answer);
+  // The pointers live as long as `reach`, which outlives the calls below.
   options.reach = reach.pointers();
   options.disks = disks_for_advice(answer, may_overlap);
+  // Without friction first: the plans of the second round cost more, and are not needed if no roll helps.
   const Advice any = advise(answer.part, next.hypotheses, options);
   next.advice = any;
   if (friction && any.helps) {
     bool can_any = false;
+    // A place where the fingers can't hold the part at all is not the true one, and does not forbid a roll.
     options.can_roll = [&](const PartHypothesis& from, const PerFinger<double>& by) {
       const bool can = !why_not_planned(answer, from.hypothesis, by, *friction);
       can_any = can_any || can;
       return can || why_not_planned(answer, from.hypothesis, hardly(by), *friction);
     };
     next.advice = advise(answer.part, next.hypotheses, options);
+    // None of the rolls that were asked for can be planned, from any place.
     if (!can_any) {
       next.advice->helps = false;
       next.why = "with this friction the fingers could not hold the part in any of them";

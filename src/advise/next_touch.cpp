@@ -47,20 +47,26 @@ double direction_sd(const TouchAnswer& answer) {
 /// Where a roll starts in a pose, and how far off along the part that may be.
 struct RollStart {
   double weight = 0;
+  /// along the outline, on the first lap
   double s = 0;
   double sd = 0;
 };
 
+/// s_k: what of the part is nearest to the last touch in this pose. Its sd along the part has the pose's covariance and
+/// the touch's own error.
 RollStart start_in(const LikelyPose& one, const TouchAnswer& answer, PartDistance& part) {
+  // In the part's frame, mirrored where the part lies face down.
   const double side = answer.mirrored ? -1 : 1;
   const Vec2& at = answer.touches.back().at;
   const Vec2 point = Pose{0, 0, -one.pose.heading}.turned(at - Vec2(one.pose.x, one.pose.y));
   const NearestOfPart nearest = part.nearest({side * point.x(), point.y()});
   const Vec2 away = one.pose.turned({side * nearest.away.x(), nearest.away.y()});
   const Vec2 arm = one.pose.turned({side * nearest.contact.x(), nearest.contact.y()});
+  // The tangent: by_pose is how far the contact goes along it when the pose moves by (dx, dy, dphi).
   const Vec2 along(-away.y(), away.x());
   const Eigen::Vector3d by_pose(along.x(), along.y(), along.y() * arm.x() - along.x() * arm.y());
   const double share = answer.noise ? kTouchSigmas : 1;
+  // A tolerance is kTouchSigmas standard deviations.
   const double place_sd = answer.tolerance.back().length / share;
   return {one.weight, nearest.s, std::sqrt(by_pose.dot(one.covariance * by_pose) + place_sd * place_sd)};
 }
@@ -71,13 +77,16 @@ struct Turned {
   double variance = 0;
 };
 
+/// Theta(s + L) - Theta(s), and its variance from the start's: the difference over two standard deviations.
 Turned turn_along(const Part& part, const RollStart& start, double length) {
   const auto turn_from = [&](double s) { return part.turning().angle(s + length) - part.turning().angle(s); };
+  // At least a little, so that a corner at the start counts as not known.
   const double spread = std::max(start.sd, 1e-9 * part.perimeter());
   const double change = turn_from(start.s + spread) - turn_from(start.s - spread);
   return {turn_from(start.s), 0.25 * change * change};
 }
 
+/// The roll stays on an open part.
 bool ends_in_time(const Part& part, const RollStart& start, double length) {
   return part.closed() || (start.s + length >= 0 && start.s + length <= part.perimeter());
 }
@@ -91,7 +100,9 @@ double bits_of(const Part& part, const std::vector<RollStart>& starts, double le
   for (std::size_t i = 0; i < starts.size(); ++i) {
     double weight = 0;
     for (std::size_t j = 0; j < starts.size(); ++j) {
+      // d^2 = off^2 / variance
       const double off = turned[i].turn - turned[j].turn;
+      // a turn is the difference of two directions, in either pose
       const double variance = i == j ? 1 : 2 * sd * sd + turned[i].variance + turned[j].variance;
       weight += starts[j].weight * std::exp(-0.5 * off * off / variance);
     }
@@ -111,6 +122,7 @@ std::optional<RollGain> roll_instead(const TouchAnswer& answer, const std::vecto
   std::vector<RollGain> rolls;
   for (int k = 1; k <= kMostRollSteps; ++k) {
     for (const double way : {1.0, -1.0}) {
+      // From short to long: the first roll that is as good is the shortest.
       const double length = way * k * kRollStep * answer.part.perimeter();
       const bool all_end = std::all_of(starts.begin(), starts.end(), [&](const RollStart& start) {
         return ends_in_time(answer.part, start, length);
@@ -118,6 +130,7 @@ std::optional<RollGain> roll_instead(const TouchAnswer& answer, const std::vecto
       if (all_end) rolls.push_back({length, bits_of(answer.part, starts, length, sd)});
     }
   }
+  // Where all rolls gain less than kNearlyAsMany of this there is none.
   double most = kLeastRollBits;
   for (const RollGain& roll : rolls) most = std::max(most, roll.bits);
   const auto first =
@@ -144,6 +157,7 @@ constexpr std::size_t kMostClosePairs = 120000;
 
 /// Whether one gains more, or about as much and goes at the part head on: along a side a little may make it miss.
 bool is_better(const TouchGain& one, const TouchGain& other) {
+  // Compared in steps of kAboutAsManyBits.
   const double more = std::round(one.bits / kAboutAsManyBits) - std::round(other.bits / kAboutAsManyBits);
   return more > 0 || (more == 0 && one.head_on > other.head_on);
 }
@@ -151,6 +165,7 @@ bool is_better(const TouchGain& one, const TouchGain& other) {
 /// Looks closely at the most promising touches, and says which of them is best. Bits are no more than roughly: if
 /// only the best is asked for, what is roughly no better than it needs no closer look.
 std::size_t best_of(TouchGains& touches, std::size_t poses, std::vector<TouchGain>& gains, bool only_best) {
+  // The most promising first. Each close look compares all pairs of poses.
   std::vector<std::size_t> order(gains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -166,6 +181,7 @@ std::size_t best_of(TouchGains& touches, std::size_t poses, std::vector<TouchGai
   return best;
 }
 
+/// Throws InputError for a number of an approach that is not finite.
 void require_finite(const std::vector<Approach>& approaches) {
   for (std::size_t k = 0; k < approaches.size(); ++k) {
     const Approach& one = approaches[k];
@@ -211,16 +227,19 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
   next.why = advising::nothing_to_tell(answer);
   if (!next.why.empty()) return next;
   const Doing doing("looking for the touch that tells most");
+  // Each approach is judged by a sample of poses, weighted.
   advising::PartInPoses lying(answer, touch::likely_poses(answer));
   advising::TouchGains touches(lying);
   for (const Approach& approach : approaches.empty() ? advising::approaches_around(lying) : approaches) {
     next.gains.push_back(touches.rough(approach));
   }
   next.best = advising::best_of(touches, lying.poses().size(), next.gains, approaches.empty());
+  // After a single touch the poses are a sample: there is nothing to list for each.
   if (!answer.poses.empty()) {
     for (advising::Forecast& one : touches.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
   }
   next.bits_wanted = touches.bits_wanted();
+  // The alternative: to roll on from where the finger touches.
   next.roll = advising::roll_instead(answer, lying.poses(), lying.part());
   next.helps = next.advised().bits >= advising::kLeastBits;
   if (next.helps) return next;

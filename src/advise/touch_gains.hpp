@@ -19,7 +19,9 @@ class PartInPoses {
 
   const TouchAnswer& answer() const { return answer_; }
   const std::vector<LikelyPose>& poses() const { return poses_; }
+  /// Distances to the part, in its own frame.
   PartDistance& part() { return part_; }
+  /// The circle around the part in all poses, in the world: its middle and its radius.
   const Vec2& middle() const { return middle_; }
   double reach() const { return reach_; }
   /// Of the part from its frame's origin.
@@ -50,6 +52,7 @@ struct Forecast {
   ExpectedTouch touch;
   double variance = 0;   // of the part's side across itself, from the pose's
   double incidence = 1;  // cosine of the way's angle with the normal
+  /// of the normal, radians^2
   double turn_variance = 0;
 };
 
@@ -73,11 +76,15 @@ class TouchGains {
   template <class Apart>
   TouchGain gain(const Approach& approach, const Apart& apart);
   NearestOfPart nearest_in(const LikelyPose& one, const Vec2& at);
+  /// An upper bound of a side's variance across itself.
   double most_variance_of(const LikelyPose& one) const;
   double turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const;
+  /// d^2 of a touch from any side of another pose; of two touches: square_apart.
   double square_off(const Forecast& made, const LikelyPose& one);
   double square_of(double place, double variance, double turn, double turn_variance) const;
+  /// d^2 of the touches that one way makes in two poses.
   double square_apart(const Forecast& a, const Forecast& b) const;
+  /// Traces the way in one pose.
   Forecast forecast(const Approach& approach, const LikelyPose& one);
   void touches(const LikelyPose& one, const Vec2& along, const NearestOfPart& nearest, Forecast& result) const;
 
@@ -86,7 +93,9 @@ class TouchGains {
   const std::vector<LikelyPose>& poses_;
   PartDistance& part_;
   std::vector<double> share_of_set_;  // of each pose, in the set that it stands for
+  /// the answer's touches have them, so that the next one does
   bool has_normals_ = false;
+  /// of a measured place, length; turn_sd_: of a normal, radians
   double place_sd_ = 0;
   double turn_sd_ = 0;
 };

@@ -25,6 +25,7 @@ End case_1(Pair& pair, const Mode& mode, const LimitRule& rule, Approach& result
   if (beyond(mode.t_mark, target, mode.sign_t)) return End::exit;
   if (!pair.t.to_integral(target, mode.sign_t, mode.t_end)) return End::exit;  // Phi(s_i, t_i) = theta
   const double next = pair.t.length() - pair.problem.length;                   // s_{i+1} = t_i - L
+  // >= 0 by Lemma 1: phi(s_i) is short of C, so that t_i lies beyond s_i + L.
   const double advance = next - pair.s.length();
   pair.s.to_length(next);
   result.rate = pair.s.density() / pair.t.density();  // Lemma 2: kappa(a) / kappa(b)
@@ -61,6 +62,7 @@ Found case_of(const Pair& pair, const Mode& mode) {
   return mode.sign_s * pair.excess() < 0 ? Found::case_1 : Found::case_2;
 }
 
+/// The case holds for the whole approach: s_{i+1} never passes the root, so that phi - C keeps its sign.
 Approach alternate(Pair& pair, const Mode& mode, const LimitRule& rule, std::vector<Iterate>* sequence) {
   Approach result{End::going_on};
   const bool falls_short = case_of(pair, mode) == Found::case_1;

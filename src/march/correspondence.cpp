@@ -15,10 +15,13 @@
 
 namespace rollfix::march {
 
+/// (8) solved for s: phi_1(s) = phi_3(t) + theta_1. phi_1 grows along the way, so that sign = 1 is right whatever the
+/// trend of phi_1 by s.
 void Correspondence::follow_with_s(StartsOfBoth& at) const {
   at.a.move_to_value(0, at.b.phi(0) + at.problem->theta[0], 1, y());
 }
 
+/// (8) solved for t: phi_3(t) = phi_1(s) - theta_1.
 void Correspondence::follow_with_t(StartsOfBoth& at) const {
   at.b.move_to_value(0, at.a.phi(0) - at.problem->theta[0], 1, z());
 }
@@ -33,6 +36,8 @@ void Correspondence::move_t_to(StartsOfBoth& at, double t) const {
   follow_with_s(at);
 }
 
+/// (8) differentiated: phi_1' ds = phi_3' dt. The larger of ds and dt is put to 1, so that a stationary point of one
+/// phi (its slope 0) gives no division by zero; where both slopes are 0, both move alike.
 Correspondence::Rates Correspondence::rates(const StartsOfBoth& at) const {
   const double one = std::fabs(at.a.slope(0));
   const double three = std::fabs(at.b.slope(0));
@@ -44,6 +49,7 @@ Correspondence::Rates Correspondence::rates(const StartsOfBoth& at) const {
   return rates;
 }
 
+/// With equal trends, trend_2 (F' - G') of docs/march.md, "Which of s and t moves first", but per length and not per v.
 double Correspondence::slope(const StartsOfBoth& at) const {
   const Rates along = rates(at);
   return trend_2 * along.phi_2 - trend_4 * along.phi_4;
@@ -59,6 +65,7 @@ std::optional<Correspondence> correspond(const MonotoneInterval& i, const Monoto
   const double highest_1 = i.top().phi(0);
   const double lowest_3 = j.bottom().phi(0) + theta;
   const double highest_3 = j.top().phi(0) + theta;
+  // I_i and J_j have nothing in common. The rounding keeps pairs at which they only touch.
   if (std::max(lowest_1, lowest_3) > std::min(highest_1, highest_3) + problem.rounding) return std::nullopt;
 
   const StartsOfBoth bottoms = StartsOfBoth{i.bottom(), j.bottom(), &problem}.counted_by(tally);
@@ -82,6 +89,7 @@ namespace {
 /// What is left of a start's way: it can only shrink, so that rounding errors of the other start, which are large near
 /// its stationary points, can't keep the halving going for ever.
 struct Left {
+  /// The pair is known to lie between `low` and `high`, seen in `direction`.
   double low = 0;
   double high = 0;
   int direction = 1;
@@ -99,6 +107,7 @@ struct Left {
 }  // namespace
 
 BisectedPair bisect(const Correspondence& way, double tolerance, Tally& tally) {
+  // At each turn: the pair lies beyond `low`, (8) holds at `low`, and (9)'s excess has the sign `side` there.
   StartsOfBoth low = way.begin.counted_by(tally);
   const int side = side_of(low.excess(1));
   Left s(way.x(), way.y());
@@ -107,6 +116,7 @@ BisectedPair bisect(const Correspondence& way, double tolerance, Tally& tally) {
   while (s.width() > tolerance || t.width() > tolerance) {
     result.at = low;
     ++result.iterations;
+    // Halving s alone would leave t undetermined where phi_3 is level, and the other way round.
     if (s.width() >= t.width()) {
       way.move_s_to(result.at, s.middle());
     } else {
@@ -128,7 +138,9 @@ namespace {
 
 /// s moves to where phi_2(x_{i+1}) = phi_4(w_i) + theta_2, and t follows by (8). False: y comes first.
 bool round_with_s_first(StartsOfBoth& at, const Correspondence& way) {
+  // s comes to where F(v_{i+1}) = G(v_i).
   const double target = at.b.phi(1) + at.problem->theta[1];
+  // F is below the target even at y: no pair is left. See docs/march.md, "Which of s and t moves first".
   if (way.trend_2 * (target - way.end.a.phi(1)) > 0) return false;  // no need to go and see
   if (!at.a.move_to_value(1, target, way.trend_2, way.y())) return false;
   way.follow_with_t(at);
@@ -137,6 +149,7 @@ bool round_with_s_first(StartsOfBoth& at, const Correspondence& way) {
 
 /// Figure 6 as printed: t moves to where phi_4(w_{i+1}) + theta_2 = phi_2(x_i), and s follows by (8).
 bool round_with_t_first(StartsOfBoth& at, const Correspondence& way) {
+  // t comes to where G(v_{i+1}) = F(v_i).
   const double target = at.a.phi(1) - at.problem->theta[1];
   if (way.trend_4 * (target - way.end.b.phi(1)) > 0) return false;
   if (!at.b.move_to_value(1, target, way.trend_4, way.z())) return false;
@@ -148,11 +161,14 @@ bool round_with_t_first(StartsOfBoth& at, const Correspondence& way) {
 /// first by its inverse. What an advance leaves is as in Lemma 2.
 double shrinking(const StartsOfBoth& at, const Correspondence& way, bool s_first) {
   const Correspondence::Rates rates = way.rates(at);
+  // G' / F' or F' / G': at most 1 in the right order, 1 at a double pair.
   return s_first ? rates.phi_4 / rates.phi_2 : rates.phi_2 / rates.phi_4;
 }
 
 }  // namespace
 
+/// Rounds of Figure 6 to the next limit. The order is chosen once: no iterate passes the pair, so that the sign of
+/// F - G stays. (8) holds at the end of each round.
 Approach iterate(StartsOfBoth& at, const Correspondence& way, const LimitRule& rule) {
   Approach result{Approach::End::going_on};
   const bool s_first = s_moves_first(at, way);
@@ -165,6 +181,7 @@ Approach iterate(StartsOfBoth& at, const Correspondence& way, const LimitRule& r
       return result;
     }
     result.rate = shrinking(at, way, s_first);
+    // The longer of both advances: the estimate then holds for s and for t.
     result.end = judge(std::max(std::fabs(at.a.s() - s), std::fabs(at.b.s() - t)), result.rate, rule, result.error);
   }
   if (result.end == Approach::End::going_on) result.end = Approach::End::stalled;

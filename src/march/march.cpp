@@ -27,8 +27,11 @@ constexpr double kWholeLoop = 1e-12;
 /// ... and equals C to rounding if it does to this part of the density's variation.
 constexpr double kWholeLoopIntegral = 1e-11;
 
+/// The smallest reset that is accepted, as a part of P: a few units in the last place of s.
 constexpr double kLeastReset = 1e-15;
 
+/// Throws InputError for an option out of range. A reset below the limit is allowed here: finds then repeat, which
+/// Result::found_again counts.
 void check(const Options& options) {
   const auto expect = [](bool good, const char* what, double found) {
     if (!good) throw InputError(fmt::format("march: expected {}, found {}", what, found));
@@ -41,28 +44,36 @@ void check(const Options& options) {
 
 }  // namespace
 
+/// g = kappa, in radians per unit of length: eq. (5).
 Density curvature_density() {
   return {Density::Kind::curvature, "the curvature", "inflection",
           [](const Site& site) { return curvature(site.jet); }};
 }
 
+/// g = d kappa / ds: the derivative by the curve's own parameter, divided by the speed |alpha'|. Eq. (6).
 Density curvature_rate_density() {
   return {Density::Kind::curvature_rate, "the curvature's derivative", "vertex",
           [](const Site& site) { return curvature_rate(site.jet) / site.jet.first.norm(); }};
 }
 
+/// g = f of section 5. The march learns its zeros from samples, as those of the other two.
 Density density(DensityFunction f, std::string name) {
   return {Density::Kind::other, std::move(name), "sign change", std::move(f)};
 }
 
+/// What is computed once per outline and density: the steps, and the sign changes with their sums.
 struct March::Data {
   Data(const Outline& outline, const Density& density, const Options& given)
       : options(given), path(outline, density, given.step), preprocessed(preprocess(path)) {}
 
   double perimeter() const { return preprocessed.loop.length; }
+  /// the counts and errors that every result of this outline has
   Result prepared_result() const;
+  /// L of either sign and any size
   Result on_closed(double length, double integral) const;
+  /// |L| <= P
   Result on_open(double length, double integral) const;
+  /// L = 0 after its reduction
   Result without_length(double integral) const;
 
   Options options;
@@ -74,14 +85,17 @@ struct March::Data {
 Result March::Data::on_closed(double length, double integral) const {
   double loops = std::floor(length / perimeter());
   double rest = length - loops * perimeter();
+  // A rest just below P is a whole loop with rounding errors.
   if (rest >= perimeter() * (1 - kWholeLoop)) {
     loops += 1;
     rest = 0;
   }
+  // C without the loops' part; for kappa that is 2 pi each on a simple loop.
   const double left = integral - loops * preprocessed.loop.integral;
   if (rest <= kWholeLoop * perimeter()) return without_length(left);
   Result result = prepared_result();
   sweep(path, preprocessed, {rest, left}, options, result);
+  // The sweep's ends are not reduced: t goes on to s + L.
   for (Segment& segment : result.segments) {
     segment.start = wrap(segment.start, perimeter()).base;
     segment.end = wrap(segment.end, perimeter()).base;
@@ -98,10 +112,12 @@ Result March::Data::on_open(double length, double integral) const {
   if (std::fabs(length) <= kWholeLoop * perimeter()) return without_length(integral);
   Result result = prepared_result();
   sweep(path, preprocessed, {std::fabs(length), length < 0 ? -integral : integral}, options, result);
+  // s + L may exceed P by rounding on an open outline.
   for (Segment& segment : result.segments) {
     segment.end = std::fmin(segment.end, perimeter());
     if (length < 0) std::swap(segment.start, segment.end);
   }
+  // Doubts are about starts of the segment asked for: the other end, |L| further on.
   if (length < 0) {
     for (Doubt& doubt : result.doubts) doubt.where = {doubt.where.lo - length, doubt.where.hi - length};
   }
@@ -138,6 +154,7 @@ March::March(const Outline& outline, const Density& density, const Options& opti
   data_ = std::make_shared<const Data>(outline, density, options);
 }
 
+/// Closed and open outlines differ in how L is reduced only.
 Result March::segments(double length, double integral) const {
   if (!std::isfinite(length) || !std::isfinite(integral)) {
     throw InputError(fmt::format("march: expected finite numbers, found length {} and integral {}", length, integral));
@@ -145,6 +162,7 @@ Result March::segments(double length, double integral) const {
   return data_->path.closed() ? data_->on_closed(length, integral) : data_->on_open(length, integral);
 }
 
+/// The z_i with their sums from s = 0.
 std::vector<Breakpoint> March::breakpoints() const {
   std::vector<Breakpoint> points;
   for (const SignChange& change : data_->preprocessed.changes) {

@@ -27,6 +27,7 @@ constexpr double kPairRounding = 1e-14;
 /// Finds of neighbouring rectangles are one pair if they differ by no more than this many of their estimated errors.
 constexpr double kEstimates = 4;
 
+/// Throws InputError for an option out of range. The reset has to be above the limit, or finds repeat.
 void check(const PairMarchOptions& options) {
   const auto expect = [](bool good, const char* what, double found) {
     if (!good) throw InputError(fmt::format("march: expected {}, found {}", what, found));
@@ -38,17 +39,21 @@ void check(const PairMarchOptions& options) {
   expect(options.iterations > 0, "at least one iteration per limit", 0);
 }
 
+/// Throws InputError for a length or a turn that is not finite.
 void check(const Reading& reading) {
   if (std::isfinite(reading.length[0]) && std::isfinite(reading.length[1]) && std::isfinite(reading.turn)) return;
   throw InputError(fmt::format("march: expected finite numbers, found lengths {} and {}, turn {}", reading.length[0],
                                reading.length[1], reading.turn));
 }
 
+/// The outline, if it is closed. Throws InputError for an open one: section 3 divides a loop.
 const Outline& closed(const Outline& outline) {
   if (outline.closed) return outline;
   throw InputError("march: expected a closed outline for two fingers, found an open one; use rollfix::locate");
 }
 
+/// Options of the march for eq. (6). Its limit and reset stay at their defaults: they are about stationary points, not
+/// about pairs.
 Options for_stationary_points(const PairMarchOptions& options) {
   Options same;
   same.step = options.step;
@@ -62,6 +67,8 @@ struct OneLoop {
   double variation = 0;
 };
 
+/// One walk of T/h steps. `variation` is the sum of |integral of kappa| over the steps: less than the integral of
+/// |kappa| only where kappa changes its sign within a step.
 OneLoop one_loop(const Path& path) {
   Position at = first_position(path);
   OneLoop loop{at.step, std::fabs(at.step.integral)};
@@ -75,6 +82,7 @@ OneLoop one_loop(const Path& path) {
 
 }  // namespace
 
+/// What is prepared once per outline: both marches over it, and one loop's sums.
 struct PairMarch::Data {
   Data(const Outline& outline, const PairMarchOptions& given)
       : options(given),
@@ -82,13 +90,18 @@ struct PairMarch::Data {
         path(outline, curvature_density(), given.step),
         loop(one_loop(path)) {}
 
+  /// of one finger, from its two lengths
   Segments segments(double length_1, double length_2) const;
+  /// right sides of (8) and (9)
   PairProblem problem(const Reading& first, const Reading& second) const;
+  /// finds of all rectangles, each pair once
   void merge(PairResult& result) const;
   PairResult search(const Reading& first, const Reading& second) const;
 
   PairMarchOptions options;
+  /// of kappa', for eq. (6)
   March march;
+  /// of kappa, for phi
   Path path;
   OneLoop loop;
 };
@@ -98,6 +111,7 @@ Segments PairMarch::Data::segments(double length_1, double length_2) const {
   Segments segments;
   const std::array<double, 2> lengths{length_1, length_2};
   for (std::size_t k = 0; k < 2; ++k) {
+    // A negative length becomes one in [0, P) and a negative number of loops. Whole loops turn the same from every s.
     const Wrapped wrapped = wrap(lengths[k], loop.sum.length);
     segments.length[k] = wrapped.base;
     segments.loops_turn[k] = wrapped.winding * loop.sum.integral;
@@ -105,6 +119,7 @@ Segments PairMarch::Data::segments(double length_1, double length_2) const {
   return segments;
 }
 
+/// theta_1 and theta_2, and the rounding of the sums: it grows with the loops of both rolls and with the turns.
 PairProblem PairMarch::Data::problem(const Reading& first, const Reading& second) const {
   double loops = 1;
   for (const Reading& reading : {first, second}) {
@@ -121,6 +136,7 @@ void PairMarch::Data::merge(PairResult& result) const {
   for (StartPair pair : result.pairs) {
     pair.s = wrap(pair.s, period).base;
     pair.t = wrap(pair.t, period).base;
+    // Both starts near, periodically: a pair at s = 0 is also found at s = P.
     const auto same = [&](const StartPair& other) {
       const double near = kEstimates * std::fmax(pair.error + other.error, options.limit * period);
       return periodic_distance(pair.s, other.s, period) <= near && periodic_distance(pair.t, other.t, period) <= near;
@@ -131,12 +147,14 @@ void PairMarch::Data::merge(PairResult& result) const {
       continue;
     }
     ++result.found_again;
+    // Of finds that are one pair the best known is kept.
     if (pair.error < twin->error) *twin = pair;
   }
   std::sort(merged.begin(), merged.end(), [](const StartPair& one, const StartPair& two) {
     return std::pair(one.s, one.t) < std::pair(two.s, two.t);
   });
   result.pairs = std::move(merged);
+  // `lo` in [0, P); `hi` may exceed P.
   for (PairDoubt& doubt : result.doubts) {
     for (Interval* where : {&doubt.s, &doubt.t}) {
       const double lo = wrap(where->lo, period).base;
@@ -146,6 +164,7 @@ void PairMarch::Data::merge(PairResult& result) const {
 }
 
 /// "The localization algorithm enumerates all nm pairs of intervals."
+/// All of section 3 for one question: divide, go through the rectangles, merge, add up the counts.
 PairResult PairMarch::Data::search(const Reading& first, const Reading& second) const {
   PairResult result;
   result.perimeter = loop.sum.length;
@@ -157,6 +176,7 @@ PairResult PairMarch::Data::search(const Reading& first, const Reading& second) 
   const Segments segments_a = segments(first.length[0], second.length[0]);
   const Segments segments_b = segments(first.length[1], second.length[1]);
   Tally evaluation;
+  // Section 3.1: finger a by L_1 and L_2, finger b by L_3 and L_4.
   const PartitionTools tools{path, march, result.perimeter};
   const Partition a = divide(tools, segments_a, evaluation, result.steps);
   const Partition b = divide(tools, segments_b, evaluation, result.steps);
@@ -164,11 +184,13 @@ PairResult PairMarch::Data::search(const Reading& first, const Reading& second) 
   result.stationary_b = b.points;
   result.merged = a.merged + b.merged;
   const Interval anywhere{0, result.perimeter};
+  // Where a stationary point is doubtful phi may not be monotone: with any partner pairs may be missing.
   for (const Interval& where : a.doubts) result.doubts.push_back({PairDoubt::Why::stationary, where, anywhere, 0, 0});
   for (const Interval& where : b.doubts) result.doubts.push_back({PairDoubt::Why::stationary, anywhere, where, 0, 0});
 
   Tally subintervals;
   RectangleTallies tallies;
+  // Each of the n m rectangles: excluded by I_i and J_j, or searched along its correspondence.
   for (const MonotoneInterval& i : a.intervals) {
     for (const MonotoneInterval& j : b.intervals) {
       ++result.rectangles;
@@ -182,6 +204,7 @@ PairResult PairMarch::Data::search(const Reading& first, const Reading& second) 
     }
   }
   merge(result);
+  // the counts by purpose, and the work that is not steps summed over all purposes
   result.steps.evaluation = evaluation.steps;
   result.steps.subintervals = subintervals.steps;
   result.steps.iteration = tallies.iteration.steps;

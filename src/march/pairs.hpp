@@ -12,9 +12,11 @@
 namespace rollfix::march {
 
 /// One finger's two segments: phi_k(s) = Phi(s, s + L_k), k = 0 and 1. Whole loops are taken off L_k and their turn is
-/// kept apart: 0 < length < P.
+/// kept apart.
 struct Segments {
+  /// what is left of L_k, in [0, P)
   std::array<double, 2> length{};
+  /// total curvature of the loops taken off, radians
   std::array<double, 2> loops_turn{};
 };
 
@@ -45,6 +47,7 @@ class Start {
   void become(const Start& landed, const Tally& spent);
   void nudge(double by);
 
+  /// must outlive this
   const Segments* segments_;
   Tally* tally_;
   Walker start_;
@@ -69,6 +72,7 @@ struct Partition {
   std::vector<MonotoneInterval> intervals;  // in order; together one loop
   std::vector<double> points;               // a_0 ... a_{n-1}, in [0, P)
   std::vector<Interval> doubts;             // stretches of s with doubtful stationary points, cut out by points
+  /// points dropped because another one is the same
   std::size_t merged = 0;
 };
 
@@ -86,11 +90,13 @@ Partition divide(const PartitionTools& tools, const Segments& segments, Tally& e
 
 /// The right sides of (8) and (9), radians, and what rounding makes of such differences.
 struct PairProblem {
+  /// theta_1, theta_2
   std::array<double, 2> theta{};
+  /// an excess of (8) or (9) below this may be 0, radians
   double rounding = 0;
 };
 
-/// A start of each finger. But for what is noted, (8) holds.
+/// A start of each finger. (8) holds, except within a move and at the ends of both intervals.
 struct StartsOfBoth {
   Start a;
   Start b;
@@ -116,7 +122,7 @@ struct Correspondence {
   double w() const { return begin.b.s(); }
   double z() const { return end.b.s(); }
 
-  /// s (or t) moved towards y (or z) by `amount`, and the other one so that (8) holds again.
+  /// s (or t) put at a place between it and y (or z), and the other one moved so that (8) holds again.
   void move_s_to(StartsOfBoth& at, double s) const;
   void move_t_to(StartsOfBoth& at, double t) const;
   /// s, or t, to where (8) holds with the other one. It is ahead of where it is.

@@ -32,12 +32,14 @@ constexpr std::size_t kMostSteps = 4096;
 /// A given step divides a curve's parameter range to this accuracy, or another step is added.
 constexpr double kStepRounding = 1e-9;
 
-/// Gauss-Legendre quadrature with five points: exact for polynomials of degree nine. Abramowitz and Stegun 25.4.29.
+/// One node of Gauss-Legendre quadrature on [-1, 1]. The weights add up to 2, the interval's length.
 struct Node {
+  /// abscissa
   double place;
   double weight;
 };
 
+/// The rule with five nodes: exact for polynomials of degree nine. Abramowitz and Stegun 25.4.29, in closed form.
 std::array<Node, 5> gauss_legendre() {
   const double inner = std::sqrt(5.0 - 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
   const double outer = std::sqrt(5.0 + 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
@@ -52,6 +54,8 @@ std::array<Node, 5> gauss_legendre() {
 
 const std::array<Node, 5> kNodes = gauss_legendre();
 
+/// Part number `index` of `count` equal parts. The last one ends at domain.hi itself, so that a curve's steps cover its
+/// domain without a gap that rounding leaves.
 Interval nth_part(const Interval& domain, std::size_t count, std::size_t index) {
   const auto end = [&](std::size_t i) {
     return i == count ? domain.hi : domain.lo + domain.width() * (static_cast<double>(i) / static_cast<double>(count));
@@ -63,6 +67,7 @@ Interval nth_part(const Interval& domain, std::size_t count, std::size_t index) 
 
 Path::Path(Outline outline, Density density, double step) : outline_(std::move(outline)), density_(std::move(density)) {
   if (outline_.curves.empty()) throw InputError("march: expected an outline of at least one curve, found none");
+  // Each curve has its own equal steps: no step reaches over a joint, where g may jump.
   for (std::size_t curve = 0; curve < curves(); ++curve) {
     domains_.push_back(outline_.curves[curve].domain());
     const double range = domains_.back().width();
@@ -72,23 +77,31 @@ Path::Path(Outline outline, Density density, double step) : outline_(std::move(o
                                   : choose_steps(curve);
     steps_.push_back(count);
     steps_per_loop_ += count;
+    // Also for a given step: Result reports the error of one loop whatever the step.
     loop_error_ = loop_error_ + try_steps(curve, count).error;
   }
 }
 
+/// Integrates a curve in `count` equal steps, and again in halves of them; the difference estimates the error of the
+/// whole steps.
 Path::Trial Path::try_steps(std::size_t curve, std::size_t count) {
   Trial trial;
   for (std::size_t index = 0; index < count; ++index) {
     const Interval whole = nth_part(domains_[curve], count, index);
     const Span once = integrate(curve, whole.lo, whole.hi);
     const Span twice = integrate(curve, whole.lo, whole.middle()) + integrate(curve, whole.middle(), whole.hi);
+    // Absolute values: errors of neighbouring steps must not cancel, and an integral whose parts cancel over the curve
+    // must not make small errors look large.
     trial.error = trial.error + Span{std::fabs(once.length - twice.length), std::fabs(once.integral - twice.integral)};
     trial.sum = trial.sum + Span{twice.length, std::fabs(twice.integral)};
   }
+  // one quadrature over each step and two over its halves
   choosing_steps_ += 3 * count;
   return trial;
 }
 
+/// The fewest steps of 4, 8, ... 4096 at which halving changes neither sum by more than rounding: the automatic h.
+/// Throws Refusal (unresolved) where 4096 steps do not come to kUnresolved either.
 std::size_t Path::choose_steps(std::size_t curve) {
   Trial trial;
   for (std::size_t count = kFewestSteps; count <= kMostSteps; count *= 2) {
@@ -98,6 +111,7 @@ std::size_t Path::choose_steps(std::size_t curve) {
       return count;
     }
   }
+  // Not to rounding, but accurate enough to go on; `loop_error_` has what is left.
   if (trial.error.length <= kUnresolved * trial.sum.length &&
       trial.error.integral <= kUnresolved * trial.sum.integral) {
     return kMostSteps;
@@ -108,15 +122,18 @@ std::size_t Path::choose_steps(std::size_t curve) {
                             density_.name, kMostSteps, curve, trial.error.integral / trial.sum.integral));
 }
 
+/// The parameters [u, u + h] of one step.
 Interval Path::step(std::size_t curve, std::size_t index) const {
   return nth_part(domains_[curve], steps_[curve], index);
 }
 
+/// |alpha'(u)| and g at the parameter u of a curve.
 Local Path::at(std::size_t curve, double u) const {
   const Jet jet = outline_.curves[curve].jet(u);
   return {jet.first.norm(), density_.per_length({curve, u, jet})};
 }
 
+/// Both integrals from parameter `from` to `to`; with to < from both change their sign.
 Span Path::integrate(std::size_t curve, double from, double to) const {
   const double half = 0.5 * (to - from);
   const double middle = from + half;
@@ -124,6 +141,7 @@ Span Path::integrate(std::size_t curve, double from, double to) const {
   for (const Node& node : kNodes) {
     const Local local = at(curve, middle + half * node.place);
     sum.length += node.weight * local.speed;
+    // ds = speed du, and g is per unit of arc length
     sum.integral += node.weight * local.speed * local.density;
   }
   return sum * half;
@@ -141,14 +159,18 @@ Position land(const Path& path, Tally& tally, const Position& from, double u_end
               const Rate& rate) {
   double gap = value(from.here) - target;
   if (gap >= 0) return from;
+  // gap < 0: the target is ahead
   ++tally.landings;
   const Interval step = path.step(from.curve, from.index);
+  // The root lies in the bracket at each turn: `value` is short of the target at lo, and reaches it by hi.
   Interval bracket{from.u, u_end};
   Position at = from;
   for (int i = 0; i < kMostRefinements; ++i) {
     double u = at.u - gap / rate(at.local);
+    // Outside where the rate is small or 0, as near an inflection; `!` also catches a u that is not a number.
     if (!(u > bracket.lo && u <= bracket.hi)) u = bracket.middle();
     at.u = u;
+    // From the step's beginning, not from where the last landing was: errors do not add up over many landings.
     at.here = at.before + path.integrate(at.curve, step.lo, u);
     at.local = path.at(at.curve, u);
     ++tally.refinements;
@@ -156,10 +178,12 @@ Position land(const Path& path, Tally& tally, const Position& from, double u_end
     const double correction = -gap / rate(at.local);
     if (std::fabs(correction) <= kLastCorrection * step.width()) {
       at.u = std::clamp(u + correction, from.u, step.hi);
+      // The last correction is linear: the integrands do not change over it to rounding.
       at.here = at.here + at.local.spans() * (at.u - u);
       return at;
     }
     (gap < 0 ? bracket.lo : bracket.hi) = u;
+    // The bracket holds no number between its ends: nothing is left to halve.
     if (!(bracket.middle() > bracket.lo && bracket.middle() < bracket.hi)) return at;
   }
   return at;
@@ -169,6 +193,7 @@ Position land(const Path& path, Tally& tally, const Position& from, double u_end
 /// the step starts from where the length would be if the speed were the step's mean.
 Position land_on_length(const Path& path, Tally& tally, const Position& from, double target, bool entered) {
   if (from.here.length == target) return from;
+  // The target may lie on either side of from.u: the bracket is the whole step.
   ++tally.landings;
   const Interval step = path.step(from.curve, from.index);
   Position at = from;
@@ -187,6 +212,7 @@ Position land_on_length(const Path& path, Tally& tally, const Position& from, do
       at.here = at.here + at.local.spans() * correction;
       break;
     }
+    // The speed is positive, so that the length grows with u: the correction's sign tells the side of the root.
     (correction > 0 ? bracket.lo : bracket.hi) = u;
     if (!(bracket.middle() > bracket.lo && bracket.middle() < bracket.hi)) break;
     u += correction;
@@ -197,6 +223,7 @@ Position land_on_length(const Path& path, Tally& tally, const Position& from, do
 
 }  // namespace
 
+/// The same place some loops further on: only the sums change.
 Position Position::moved_by(const Span& loops) const {
   Position moved = *this;
   moved.before = before + loops;
@@ -213,6 +240,7 @@ Position first_position(const Path& path) {
   return first;
 }
 
+/// On a closed outline the step after the last one is the first; its sums go on from those of the loop before.
 Position next_position(const Path& path, const Position& position) {
   Position next = position;
   if (++next.index == path.steps(next.curve)) {
@@ -228,6 +256,7 @@ Position next_position(const Path& path, const Position& position) {
   return next;
 }
 
+/// The sums of the step itself are taken off, so that both directions give the same sums at a place, to rounding.
 Position previous_position(const Path& path, const Position& position) {
   Position previous = position;
   if (previous.index == 0) {
@@ -244,19 +273,23 @@ Position previous_position(const Path& path, const Position& position) {
   return previous;
 }
 
+/// On an open outline's last step, beyond which there is nothing to enter. A closed one has no last step.
 bool Walker::last_step() const {
   return !path_->closed() && position_.curve + 1 == path_->curves() &&
          position_.index + 1 == path_->steps(position_.curve);
 }
 
+/// Likewise an open outline's first step.
 bool Walker::first_step() const { return !path_->closed() && position_.curve == 0 && position_.index == 0; }
 
+/// Into the next step, at its beginning: one quadrature, counted as a step of the theorems.
 void Walker::next_step() {
   position_ = next_position(*path_, position_);
   ++tally_->steps;
   ++net_steps_;
 }
 
+/// Into the step before, at its end. It counts as a step as well.
 void Walker::previous_step() {
   position_ = previous_position(*path_, position_);
   ++tally_->steps;
@@ -265,11 +298,14 @@ void Walker::previous_step() {
 
 void Walker::move_to_length(double target) {
   const long before = net_steps_;
+  // Lengths grow along the path, so that one of the two loops does nothing. After them the target lies on this step.
   while (target > at_step_end().length && !last_step()) next_step();
   while (target < position_.before.length && !first_step()) previous_step();
   position_ = land_on_length(*path_, *tally_, position_, target, net_steps_ != before);
 }
 
+/// `by` is an arc length. The sums are extended by the integrands at u: what that leaves is of second order in `by`,
+/// a rounding error for shifts of the size of kLastCorrection.
 void Walker::nudge(double by) {
   const Interval step = path_->step(position_.curve, position_.index);
   const double change = by / position_.local.speed;
@@ -277,6 +313,8 @@ void Walker::nudge(double by) {
   position_.here = position_.here + position_.local.spans() * change;
 }
 
+/// Where on this step the length is `target`, at or ahead of the walker, which does not move. A target behind it gives
+/// the walker's own place.
 Position Walker::at_length(double target) {
   Position at = land(
       *path_, *tally_, position_, path_->step(position_.curve, position_.index).hi, target,
@@ -286,23 +324,28 @@ Position Walker::at_length(double target) {
 }
 
 void Walker::to_length(double target) {
+  // Whole steps first; the target then lies on the step that the walker is on.
   while (at_step_end().length < target && !last_step()) next_step();
   position_ = at_length(target);
 }
 
 bool Walker::to_integral(double target, int sign, double end) {
+  // Up to `end` the density has the sign `sign`, so that sign * integral grows with arc length.
   const auto short_by = [&](const Span& span) { return sign * (target - span.integral); };
+  // A step whose end falls short and lies before `end` does not contain the target: by monotonicity.
   while (at_step_end().length < end && short_by(at_step_end()) > 0 && !last_step()) next_step();
 
   double u_end = path_->step(position_.curve, position_.index).hi;
   if (at_step_end().length >= end) {  // the mode ends on this step: beyond, the density may have the other sign
     const Position stop = at_length(end);
+    // The target is not reached at `end`: none on this mode.
     if (short_by(stop.here) > 0) {
       position_ = stop;
       return false;
     }
     u_end = stop.u;
   }
+  // Here the step holds the target up to u_end, and the integral is monotone up to there: one root.
   position_ = land(
       *path_, *tally_, position_, u_end, sign * target, [sign](const Span& span) { return sign * span.integral; },
       [sign](const Local& local) { return sign * local.density * local.speed; });

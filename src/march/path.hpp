@@ -51,6 +51,7 @@ class Path {
   /// The part of a curve's parameter that its step number `index` covers.
   Interval step(std::size_t curve, std::size_t index) const;
 
+  /// The integrands |alpha'| and g at parameter `u` of a curve.
   Local at(std::size_t curve, double u) const;
 
   /// Both integrals over a part of one step.
@@ -67,7 +68,9 @@ class Path {
 
   Outline outline_;
   Density density_;
+  /// parameter range of each curve
   std::vector<Interval> domains_;
+  /// equal steps of each curve
   std::vector<std::size_t> steps_;
   std::size_t steps_per_loop_ = 0;
   double parameter_range_ = 0;
@@ -82,21 +85,26 @@ inline constexpr double kLastCorrection = 1e-8;
 /// A point of the boundary on its step, with the sums from s = 0 up to it. On a closed outline they go on growing
 /// after each loop.
 struct Position {
+  /// of the outline, from 0
   std::size_t curve = 0;
   std::size_t index = 0;  // of the step on its curve
+  /// the curve's parameter, on that step
   double u = 0;
   Span before;  // up to the beginning of the step
   Span step;    // over the whole step
   Span here;    // up to u
   Local local;  // at u
 
+  /// The same place with the sums that belong to it after `loops`.
   Position moved_by(const Span& loops) const;
 };
 
 /// Counts of a walker's work; see Steps.
 struct Tally {
   std::size_t steps = 0;
+  /// placements inside a step, on a length or on an integral
   std::size_t landings = 0;
+  /// quadratures over a part of a step that they took
   std::size_t refinements = 0;
 };
 
@@ -109,8 +117,10 @@ class Walker {
   Walker(const Path& path, const Position& position, Tally& tally)
       : path_(&path), tally_(&tally), position_(position) {}
 
+  /// The sums from s = 0 to the walker: arc length, and the integral of g.
   double length() const { return position_.here.length; }
   double integral() const { return position_.here.integral; }
+  /// g at the walker.
   double density() const { return position_.local.density; }
   const Position& position() const { return position_; }
 
@@ -125,6 +135,7 @@ class Walker {
   /// Steps entered going forward, less those entered going back, since the walker was made.
   long net_steps() const { return net_steps_; }
 
+  /// To a place that is known with its sums: costs nothing.
   void jump(const Position& position) { position_ = position; }
 
   /// Forward to arc length `target` (an open outline's end stops it).

@@ -34,11 +34,13 @@ constexpr double kCurvatureJump = 1e-9;
 
 constexpr const char* kCure = "rollfix::locate handles it";
 
+/// What a check looks at, and its way to refuse.
 struct Context {
   const Path& path;
   const Preprocessed& preprocessed;
   const Samples& samples;
 
+  /// Throws Refusal for a curve; the place is the arc length at which the curve starts.
   [[noreturn]] void refuse(Reason reason, std::size_t curve, const std::string& what) const {
     const double where = preprocessed.curve_starts[curve];
     throw Refusal(reason, where, fmt::format("march: {} (curve {}, s = {:.17g}); {}", what, curve, where, kCure));
@@ -51,6 +53,7 @@ struct Range {
   double spread = 0;
 };
 
+/// `value` is taken of each sample of one curve, which are as dense as the quadrature's nodes.
 template <class Value>
 Range range_of(const std::vector<Sample>& samples, const Value& value) {
   double lo = value(samples.front());
@@ -70,6 +73,7 @@ void check_curvature(const Context& context, std::size_t curve) {
   const double end = curve + 1 < context.path.curves() ? context.preprocessed.curve_starts[curve + 1]
                                                        : context.preprocessed.loop.length;
   const double length = end - context.preprocessed.curve_starts[curve];
+  // The turn over the curve is at most the largest |kappa| times the length.
   if (range.largest * length <= kFlatTurn) {
     context.refuse(Reason::line, curve, "expected curvature that vanishes at isolated points only, found a line");
   }
@@ -78,6 +82,7 @@ void check_curvature(const Context& context, std::size_t curve) {
   }
 }
 
+/// For a density of section 5: g may be constant, but not zero along a curve, where its zeros are not isolated.
 void check_not_zero(const Context& context, std::size_t curve) {
   const Range range = range_of(context.samples.curves[curve], [](const Sample& sample) { return sample.density; });
   if (range.largest <= kZero * context.samples.scale) {
@@ -99,6 +104,7 @@ void check_joint(const Context& context, std::size_t number) {
     context.refuse(Reason::corner, following,
                    fmt::format("expected a smooth boundary, found a corner of {:.17g} rad", turn));
   }
+  // A jump of kappa does not matter for eq. (5). In eq. (6) kappa(t) - kappa(s) is taken as an integral of kappa'.
   if (context.path.density().kind != Density::Kind::curvature_rate) return;
   const double jump = std::fabs(curvature(after) - curvature(before));
   if (jump > kCurvatureJump * std::max(std::fabs(curvature(after)), std::fabs(curvature(before)))) {
@@ -155,6 +161,7 @@ const Position& step_of(const std::vector<Position>& steps, const Zero& zero) {
 }  // namespace
 
 Preprocessed preprocess(const Path& path) {
+  // One walk gives P, the total integral and the places of all steps, from which each z_i is reached without walking.
   const std::vector<Position> steps = walk_round(path);
   Preprocessed result;
   result.front = steps.front();
@@ -164,6 +171,7 @@ Preprocessed preprocess(const Path& path) {
     result.variation += std::fabs(step.step.integral);
   }
   result.back = place_on(path, steps.back(), path.step(steps.back().curve, steps.back().index).hi);
+  // The walk's own sums, so that s = P and the loop agree to the last bit.
   result.back.here = result.loop;
 
   const Samples samples = sample(path);

@@ -9,7 +9,9 @@ namespace rollfix::march {
 
 /// A simple zero of the density, the paper's z_i, or a joint at which its sign jumps.
 struct SignChange {
+  /// with length and integral from s = 0
   Position at;
+  /// of the density just beyond it
   int sign_after = 1;
 };
 

@@ -24,6 +24,8 @@ constexpr std::size_t kFewRounds = 500;
 
 /// How far (s, t) may be from the pair because both equations are off by their excess and by rounding: Cramer's rule.
 double distance_of_residuals(const StartsOfBoth& at) {
+  // Linearized: phi_1' ds - phi_3' dt = -(8)'s excess, phi_2' ds - phi_4' dt = -(9)'s; the signs are taken so that the
+  // parts add up. The determinant is 0 at a double pair: the estimate is then infinite.
   const double one = at.a.slope(0), two = at.a.slope(1), three = at.b.slope(0), four = at.b.slope(1);
   const double determinant = std::fabs(three * two - one * four);
   const double eight = std::fabs(at.excess(0)) + at.problem->rounding;
@@ -33,11 +35,13 @@ double distance_of_residuals(const StartsOfBoth& at) {
   return std::fmax(s, t) / determinant;
 }
 
+/// The two in order, for a doubt: s or t may fall along the correspondence.
 Interval between(double one, double two) { return {std::fmin(one, two), std::fmax(one, two)}; }
 
 /// Whether (9)'s excess can be told from zero.
 bool tells(const StartsOfBoth& place) { return std::fabs(place.excess(1)) > place.problem->rounding; }
 
+/// All pairs on one rectangle. `at_` is a place on the curve of (8) that only goes forward, from (x, w) to (y, z).
 class Rectangle {
  public:
   Rectangle(const Correspondence& way, const PairMarchOptions& options, RectangleTallies& tallies, PairResult& result)
@@ -54,6 +58,7 @@ class Rectangle {
   /// phi_2(y) - phi_4(z) > theta_2", or the other way round.
   void bisect() {
     ++result_.bisections;
+    // phi_2(s) - phi_4(t) is monotone: a pair at an end is the only one.
     if (root_at(way_.begin)) return note_boundary(way_.begin);
     if (root_at(way_.end)) return note_boundary(way_.end);
     if (side(way_.begin) == side(way_.end)) return;
@@ -70,9 +75,11 @@ class Rectangle {
       reset();
     }
     while (!at_end()) {
+      // At each turn all pairs behind `at_` are noted, up to the reset and the doubts.
       // As printed, t moves first. It would have to leave the interval at w, or to turn back to the pair just found:
       // "one of x_i and w_i exits the corresponding interval [...] locations do not exist".
       if (options_.order == MoveOrder::printed && s_moves_first(at_, way_)) return;
+      // Neither s nor t is ahead if rounding decides the sign of (9): go on by force, until it can be told.
       if (!tells(at_)) {
         escape(0);
       } else if (!approach_next()) {
@@ -86,6 +93,7 @@ class Rectangle {
   /// Of (9) in the direction in which phi_2 goes: -1 where s lags behind.
   int side(const StartsOfBoth& place) const { return side_of(way_.trend_2 * place.excess(1)); }
 
+  /// One of s and t at its stop is the end of the way: (8) ties the other one to it.
   bool at_end() const { return at_.a.s() == way_.y() || at_.b.s() == way_.z(); }
 
   /// Whether (9) holds at this place or within the limit's tolerance of it.
@@ -97,11 +105,13 @@ class Rectangle {
   /// To the next pair and past it. False: there is none up to (y, z).
   bool approach_next() {
     const StartsOfBoth from = at_;
+    // Once the budget is used up each limit gets kFewRounds, so that a rectangle of near misses ends soon.
     const std::size_t left = options_.budget - std::min(options_.budget, result_.iterations);
     rule_.iterations = std::min(options_.iterations, std::max(left, kFewRounds));
     const Approach approach = iterate(at_, way_, rule_);
     result_.iterations += approach.iterations;
     if (approach.end == Approach::End::exit) {
+      // The sign of (9) differs at both ends, so a pair lies between; the iteration came to the end without it.
       if (side(way_.end) != side(from) && !root_at(way_.end)) {
         doubt(PairDoubt::Why::jumped, from, way_.end, approach.iterations);
       }
@@ -116,8 +126,11 @@ class Rectangle {
     return true;
   }
 
+  /// A pair at (x, w), (y, z) or at a beginning: its error comes from distance_of_residuals alone.
   void note_boundary(const StartsOfBoth& place) { note(place, {Approach::End::limit, 0, 0, 0}, PairFound::boundary); }
 
+  /// Adds a pair. Within a rectangle only the last one can be the same; finds of other rectangles are merged later
+  /// (march_pairs.cpp).
   void note(const StartsOfBoth& place, const Approach& how, PairFound found) {
     const StartPair pair{place.a.s(),
                          place.b.s(),
@@ -143,6 +156,7 @@ class Rectangle {
   /// that neither makes a leap near a stationary point.
   void advance(double amount) {
     const Correspondence::Rates rates = way_.rates(at_);
+    // At most to the stop, and exactly onto it, so that `at_end` can compare by ==.
     const auto forward = [amount](double from, double stop) {
       return std::fabs(stop - from) <= amount ? stop : from + std::copysign(amount, stop - from);
     };
@@ -157,6 +171,7 @@ class Rectangle {
   /// has the sign of its slope there. If it has not, and moves on away from zero, then another pair was passed with it.
   void reset() {
     const StartsOfBoth from = at_;
+    // Before the move, at the pair itself.
     const int expected = side_of(way_.slope(at_));
     advance(options_.reset * perimeter_);
     const double excess = at_.excess(1);
@@ -169,6 +184,7 @@ class Rectangle {
   /// doubling amounts until the excess of (9) has changed its sign or has grown for good, and says so.
   void escape(std::size_t iterations) {
     const StartsOfBoth from = at_;
+    // `least`: what the excess has to outgrow. `flat`: (9) has held to rounding all the way from the start.
     const double least = std::fmax(std::fabs(at_.excess(1)), at_.problem->rounding);
     bool flat = !tells(at_);
     bool past = false;
@@ -187,6 +203,7 @@ class Rectangle {
     doubt(PairDoubt::Why::slow, from, at_, iterations);
   }
 
+  /// Pairs with s and t between these two places may be missing.
   void doubt(PairDoubt::Why why, const StartsOfBoth& from, const StartsOfBoth& to, std::size_t iterations) {
     result_.doubts.push_back(
         {why, between(from.a.s(), to.a.s()), between(from.b.s(), to.b.s()), iterations, std::fabs(from.excess(1))});
@@ -194,11 +211,14 @@ class Rectangle {
 
   const Correspondence& way_;
   const PairMarchOptions& options_;
+  /// P; options are parts of it
   double perimeter_;
   RectangleTallies& tallies_;
   LimitRule rule_;
+  /// the place on the way
   StartsOfBoth at_;
   PairResult& result_;
+  /// index in result_.pairs of this rectangle's first find
   std::size_t first_find_;
 };
 

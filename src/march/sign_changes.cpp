@@ -34,8 +34,11 @@ constexpr double kSimpleRatio = 4.0;
 constexpr int kMinimumBits = 27;
 constexpr std::uintmax_t kMostSolverRounds = 200;
 
+/// -1, 0 or 1
 int sign_of(double value) { return (value > 0) - (value < 0); }
 
+/// One pass over the samples of all curves, in order. `last_sign_` is the sign of g before the sample in question: a
+/// sample of the other sign means a sign change in between.
 class Finder {
  public:
   Finder(const Path& path, const Samples& samples) : path_(path), samples_(samples) {}
@@ -43,6 +46,7 @@ class Finder {
   Zeros find() {
     for (std::size_t curve = 0; curve < path_.curves(); ++curve) find_on(curve);
     found_.first_sign = first_sign_;
+    // The sign before s = P and the sign after s = 0 differ: one more sign change, at s = 0 itself.
     const bool at_seam = path_.closed() && last_sign_ == -first_sign_;
     if (at_seam) {
       const double u = samples_.curves.front().front().u;
@@ -52,12 +56,14 @@ class Finder {
   }
 
  private:
+  /// The zeros on one curve, and the one at the joint where it begins.
   void find_on(std::size_t curve) {
     const std::vector<Sample>& values = samples_.curves[curve];
     const Sample* previous = nullptr;  // on this curve, with a sign
     for (std::size_t i = 0; i < values.size(); ++i) {
       look_beside(curve, i);
       const int sign = sign_at(values, i);
+      // An exact zero among the samples: the next sample with a sign tells whether the sign changes there.
       if (sign == 0) continue;
       if (first_sign_ == 0) first_sign_ = sign;
       if (last_sign_ == -sign) {
@@ -77,33 +83,41 @@ class Finder {
     const Sample& before = values[i - 1];
     const Sample& after = values[i + 1];
     const int sign = sign_of(before.density);
+    // Samples of different signs are find_on's; a joint's zero sample tells nothing here.
     if (sign == 0 || sign_of(after.density) != sign || sign_of(values[i].density) == -sign) return;
     const double least = std::fabs(values[i].density);
+    // Not the least of the three. One of both comparisons is strict: of two equal samples one is looked at.
     if (least > std::fabs(before.density) || least >= std::fabs(after.density)) return;
     const double most = std::max(std::fabs(before.density), std::fabs(after.density));
     if (least > most - least) return;  // a parabola through the three stays away from zero
 
     const auto [u, depth] = boost::math::tools::brent_find_minima([&](double x) { return sign * density(curve, x); },
                                                                   before.u, after.u, kMinimumBits);
+    // The dip stays away from zero.
     if (depth > kTouchingZero * samples_.scale) return;
+    // It touches zero, to rounding, or two zeros are too close to be told apart: not simple, and refused later.
     if (depth >= -kTouchingZero * samples_.scale) {
       found_.list.push_back({curve, u, sign, false});
       return;
     }
+    // Below zero at the minimum: one sign change on each side of it.
     const double down = zero_between(curve, before.u, u);
     const double up = zero_between(curve, u, after.u);
     found_.list.push_back({curve, down, -sign, is_simple(curve, down)});
     found_.list.push_back({curve, up, sign, is_simple(curve, up)});
   }
 
+  /// g at a parameter of a curve, per unit of arc length.
   double density(std::size_t curve, double u) const { return path_.at(curve, u).density; }
 
+  /// The sign of a sample; 0 at either end of a curve where g is rounding only.
   int sign_at(const std::vector<Sample>& values, std::size_t i) const {
     const bool at_joint = i == 0 || i + 1 == values.size();
     if (at_joint && std::fabs(values[i].density) <= kZeroAtJoint * samples_.scale) return 0;
     return sign_of(values[i].density);
   }
 
+  /// The parameter of a zero of g. REQUIRES g of different signs, or 0, at lo and hi.
   double zero_between(std::size_t curve, double lo, double hi) const {
     std::uintmax_t rounds = kMostSolverRounds;
     const auto [below, above] = boost::math::tools::toms748_solve([&](double u) { return density(curve, u); }, lo, hi,
@@ -118,6 +132,7 @@ class Finder {
     const double probe = kOrderProbe * path_.step(curve, 0).width();
     for (const double d : {-probe, probe}) {
       if (u + 2 * d < lo || u + 2 * d > hi) continue;
+      // g(2d) / g(d) is 2 to the power of the zero's order, to first order in d.
       const double near = std::fabs(density(curve, u + d));
       const double far = std::fabs(density(curve, u + 2 * d));
       if (far > kSimpleRatio * near) return false;
@@ -128,12 +143,16 @@ class Finder {
   const Path& path_;
   const Samples& samples_;
   Zeros found_;
+  /// of g just after s = 0; 0 until a sample has a sign
   int first_sign_ = 0;
+  /// of the last sample with a sign, on this curve or one before
   int last_sign_ = 0;
 };
 
 }  // namespace
 
+/// g at six equally spaced parameters of each step and at each curve's end. Both curves have a sample at a joint: g may
+/// jump there.
 Samples sample(const Path& path) {
   Samples samples;
   for (std::size_t curve = 0; curve < path.curves(); ++curve) {

@@ -33,24 +33,29 @@ class Modes {
         first_sign_(preprocessed.first_sign),
         closed_(path.closed()),
         segment_length_(first.problem.length) {
+    // A closed sweep ends where it began, one loop on: both last places are known without a step.
     if (closed_) {
       sweep_end_ = loop_.length;
       last_s_ = first.s.position().moved_by(loop_);
       last_t_ = first.t.position().moved_by(loop_);
     } else {
+      // An open one ends with t at the outline's end. L = P leaves the one start s = 0.
       sweep_end_ = std::max(0.0, loop_.length - segment_length_);
       last_t_ = preprocessed.back;
     }
   }
 
+  /// The last start s of the sweep, arc length: P when closed, P - L when open.
   double sweep_end() const { return sweep_end_; }
 
   /// The mode in which the pair is now.
   Mode at(const Pair& pair) {
+    // Both numbers only grow: over the whole sweep each sign change is passed once by s and once by t.
     pass(next_s_, pair.s.length());
     pass(next_t_, pair.t.length());
 
     Mode mode;
+    // g keeps its sign from one sign change to the next: it is the sign after the last one passed.
     mode.sign_s = sign_before(next_s_);
     mode.sign_t = sign_before(next_t_);
     const bool s_may_end = exists(next_s_);
@@ -59,6 +64,7 @@ class Modes {
     const double t_sign_change = t_may_end ? length_of(next_t_) - segment_length_ : sweep_end_;  // sigma^-1(z_{l+1})
     mode.s_end = std::min({s_sign_change, t_sign_change, sweep_end_});  // Figure 3: min(z_k, sigma^-1(z_{l+1}))
     mode.t_end = mode.s_end + segment_length_;                          // sigma(s)
+    // The copies make the jumps to z_k and z_{l+1} free of steps, and exact: no landing is needed there.
     if (mode.s_end == sweep_end_) {
       mode.s_mark = last_s_;
       mode.t_mark = last_t_;
@@ -74,25 +80,31 @@ class Modes {
 
  private:
   // Sign changes are numbered on through all loops.
+  /// Whether the density changes its sign once more. On a closed outline the numbers never end, if there is any.
   bool exists(std::size_t number) const { return closed_ ? !changes_.empty() : number < changes_.size(); }
 
+  /// Length and integral of the whole loops that a sign change's number stands for.
   Span loops_before(std::size_t number) const {
     const std::size_t loops = number / changes_.size();
     return loop_ * static_cast<double>(loops);
   }
 
+  /// A sign change as a place, with the sums that an endpoint has when it comes there.
   Position position_of(std::size_t number) const {
     return changes_[number % changes_.size()].at.moved_by(loops_before(number));
   }
 
+  /// Its arc length from s = 0, whole loops included.
   double length_of(std::size_t number) const {
     return changes_[number % changes_.size()].at.here.length + loops_before(number).length;
   }
 
+  /// The sign of g between the sign change before this one and this one.
   int sign_before(std::size_t number) const {
     return number == 0 ? first_sign_ : changes_[(number - 1) % changes_.size()].sign_after;
   }
 
+  /// Moves `next` to the first sign change that lies ahead of `length`.
   void pass(std::size_t& next, double length) const {
     while (exists(next) && length_of(next) <= length) ++next;
   }
@@ -118,11 +130,14 @@ struct Bisected {
 /// Halves [s of start, high] until it is shorter than `tolerance`. REQUIRES that phi - C changes its sign once between.
 /// Integrates forward from the lower end only, so that all halvings together cost about one more slide.
 Bisected bisect(const Pair& start, double high, double tolerance, Tally& tally) {
+  // At each turn: the root lies in (low.s, high], phi - C has the sign `side` at low, and `low` is a pair that can go
+  // on.
   Pair low{start.s.counted_by(tally), start.t.counted_by(tally), start.problem};
   const int side = side_of(low.excess());
   Bisected result{low, 0};
   while (high - low.s.length() > tolerance) {
     result.at = low;
+    // From a copy of the lower end, so that no endpoint backs up: the ways are 1/2, 1/4, ... of the mode.
     result.at.slide_to(low.s.length() + 0.5 * (high - low.s.length()));
     ++result.iterations;
     if (side_of(result.at.excess()) == side) {
@@ -152,6 +167,8 @@ class Sweep {
     result_.steps.start = tally_.steps;
   }
 
+  /// From s = 0 to the sweep's end, mode by mode. At each turn every root behind the pair is noted, up to the reset
+  /// amount and to what a doubt names, and `side_` is the sign of phi - C at the pair.
   void run() {
     start();
     while (pair_.s.length() < modes_.sweep_end()) {
@@ -176,6 +193,7 @@ class Sweep {
     return pair;
   }
 
+  /// A root at s = 0 belongs to no mode's inside: it is noted here, and left by a reset.
   void start() {
     side_ = side_of(pair_.excess());
     if (!root_here()) return;
@@ -203,12 +221,15 @@ class Sweep {
   /// Convex-concave and concave-convex: phi' = g(t) - g(s) has one sign, so phi is monotone up to the mode's end.
   void cross_mixed(const Mode& mode) {
     sequence_.clear();
+    // The pair goes to the mode's end at once; the copy at its beginning is for the bisection.
     const Pair first = pair_;
     mode.finish(pair_);
+    // phi is monotone on the mode: equal signs at both ends, no root between.
     if (side_of(pair_.excess()) == side_of(first.excess())) return arrive();
 
     const Bisected root = bisect(first, pair_.s.length(), rule_.tolerance, bisection_tally_);
     result_.iterations += root.iterations;
+    // `pair_` stands at the mode's end already, beyond the root: no reset is needed.
     note(root.at, {Approach::End::limit, root.iterations, 0, rule_.tolerance}, Found::bisection);
     side_ = side_of(pair_.excess());
   }
@@ -222,9 +243,11 @@ class Sweep {
 
   /// Whether a root lies at the pair's place or within the limit's tolerance of it.
   bool root_here() const {
+    // phi is within |phi'| times the tolerance of C if it is straight that far; at phi' = 0 rounding decides.
     return std::fabs(pair_.excess()) <= std::fmax(rounding_of_integral_, std::fabs(pair_.slope()) * rule_.tolerance);
   }
 
+  /// The sweep's last place, and the counts. On an open outline a root at its end is noted: no mode follows to do so.
   void finish() {
     if (!path_.closed() && root_here()) note_boundary();
     std::vector<Segment>& segments = result_.segments;
@@ -241,10 +264,12 @@ class Sweep {
     result_.steps.refinements = tally_.refinements + bisection_tally_.refinements;
   }
 
+  /// The pair's place as a root, off by one Newton step: |phi - C| / |phi'|.
   void note_boundary() {
     note(pair_, {Approach::End::limit, 0, 0, std::fabs(pair_.excess() / pair_.slope())}, Found::boundary);
   }
 
+  /// Adds a segment. Starts are met in increasing order, so that only the last one can be the same root.
   void note(const Pair& at, const Approach& approach, Found found) {
     std::vector<Segment>& segments = result_.segments;
     const double start = at.s.length();
@@ -254,6 +279,7 @@ class Sweep {
     }
     segments.push_back({start, at.t.length(), std::fabs(at.excess()), approach.error, approach.rate,
                         approach.iterations, found, sequence_});
+    // A find ends a series of limits out of reach: the next escape begins small again.
     escape_amount_ = reset_amount_;
   }
 
@@ -264,6 +290,7 @@ class Sweep {
     const int expected = side_of(pair_.slope());
     pair_.slide_to(std::min(from + reset_amount_, modes_.sweep_end()));
     side_ = side_of(pair_.excess());
+    // Two signs are compared only where rounding does not decide them.
     const bool tells = std::fabs(pair_.excess()) > rounding_of_integral_;
     if (tells && side_ != expected && pair_.excess() * pair_.slope() > 0) {
       result_.doubts.push_back({Doubt::Why::jumped, {from, pair_.s.length()}, 0, std::fabs(pair_.excess())});
@@ -275,6 +302,7 @@ class Sweep {
   /// goes on with the doubling: where phi is almost C everywhere, a near symmetry, limit after limit is out of reach.
   void escape(std::size_t iterations) {
     Doubt doubt{Doubt::Why::slow, {pair_.s.length(), pair_.s.length()}, iterations, std::fabs(pair_.excess())};
+    // `flat`: phi = C to rounding at all places so far. `past`: the pair is beyond what made the march slow.
     bool flat = doubt.residual <= rounding_of_integral_;
     bool past = false;
     for (; !past && pair_.s.length() < modes_.sweep_end(); escape_amount_ *= 2) {
@@ -282,6 +310,7 @@ class Sweep {
       const double excess = pair_.excess();
       const bool tells = std::fabs(excess) > rounding_of_integral_;
       flat = flat && !tells;
+      // (phi - C) phi' > 0: |phi - C| grows with s, so that the near miss lies behind.
       past = tells && (side_of(excess) != side_ || excess * pair_.slope() > 0);
       if (flat && pair_.s.length() - doubt.where.lo > kContinuum * perimeter_) {
         throw Refusal(Reason::continuum, doubt.where.lo,
@@ -290,6 +319,7 @@ class Sweep {
                                   doubt.where.lo, pair_.s.length()));
       }
     }
+    // Roots between where.lo and where.hi may be missing from the answer.
     doubt.where.hi = pair_.s.length();
     side_ = side_of(pair_.excess());
     result_.doubts.push_back(doubt);

@@ -27,6 +27,7 @@ struct Pair {
   /// phi'(s) = g(t) - g(s).
   double slope() const { return t.density() - s.density(); }
 
+  /// Both endpoints forward to the pair that starts at arc length `start`.
   void slide_to(double start) {
     s.to_length(start);
     t.to_length(start + problem.length);
@@ -36,13 +37,17 @@ struct Pair {
 /// A stretch of starts on which g(s) and g(s + L) keep their signs: convex-convex (+, +), concave-concave (-, -),
 /// convex-concave (+, -) or concave-convex (-, +). It ends with s at min(z_k, sigma^-1(z_{l+1})).
 struct Mode {
+  /// of g(s) on the whole mode, +1 or -1
   int sign_s = 1;
+  /// of g(s + L)
   int sign_t = 1;
+  /// arc length at which the mode ends for s
   double s_end = 0;
   double t_end = 0;                // sigma(s_end) = s_end + L
   std::optional<Position> s_mark;  // s_end, where it is known from preprocessing: a z_k
   std::optional<Position> t_mark;  // t_end, likewise
 
+  /// Convex-concave or concave-convex: phi is monotone.
   bool mixed() const { return sign_s != sign_t; }
 
   /// Both endpoints to the mode's end. What is known from preprocessing costs no steps.

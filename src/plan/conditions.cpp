@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t kConditions = 4;  // friction of a, of b, apart, and stable
 constexpr std::size_t kStable = 3;
+// in this order; radians, radians, length, and stability without a unit
 using Values = std::array<double, kConditions>;
 constexpr std::size_t kMostInstants = 200000;  // before it is left undecided
 constexpr int kWorstRounds = 12;               // of halving about the worst instant
@@ -43,13 +44,16 @@ class Looker {
   }
 
   /// Proves that something is left everywhere, or finds where it is not. Whether it could.
+  /// False where kMostInstants are not enough: a margin is then near 0.
   bool prove() {
+    // At each turn: all intervals before the first failing instant that are not proved are halved.
     while (true) {
       std::vector<double> halves;
       for (std::size_t k = 1; k < instants_.size(); ++k) {
         if (fails(instants_[k - 1]) || fails(instants_[k])) break;  // before it all is proved: that is the first
         if (!is_proved(k)) halves.push_back(0.5 * (instants_[k - 1].place.at + instants_[k].place.at));
       }
+      // Everything is proved, up to the first instant that fails if there is one.
       if (halves.empty()) return true;
       if (instants_.size() + halves.size() > kMostInstants) return false;
       add(halves);
@@ -58,6 +62,7 @@ class Looker {
 
   /// Closer instants about the worst of each condition.
   void sharpen() {
+    // Both neighbouring intervals of the worst instant, again and again: its place to a small share of the interval.
     for (std::size_t c = 0; c < kConditions; ++c) {
       for (int round = 0; round < kWorstRounds; ++round) {
         const std::size_t k = worst(c);
@@ -69,6 +74,7 @@ class Looker {
     }
   }
 
+  /// Index of the instant with the least left of a condition.
   std::size_t worst(std::size_t condition) const {
     const auto least = std::min_element(
         instants_.begin(), instants_.end(),
@@ -85,10 +91,12 @@ class Looker {
   const std::vector<Instant>& instants() const { return instants_; }
 
  private:
+  /// Any condition is below what is asked for.
   static bool fails(const Instant& instant) {
     return std::any_of(instant.left.begin(), instant.left.end(), [](double left) { return left < 0; });
   }
 
+  /// Looks at these lambda too. The instants stay in order, each once.
   void add(const std::vector<double>& at) {
     for (const PairPlace& place : path_.places(at)) instants_.push_back(seen(place));
     std::sort(instants_.begin(), instants_.end(),
@@ -97,19 +105,23 @@ class Looker {
     instants_.erase(std::unique(instants_.begin(), instants_.end(), is_same), instants_.end());
   }
 
+  /// What is left of each condition at one instant; infinite where it is not asked for.
   Instant seen(const PairPlace& place) const {
     Instant instant{place, squeeze_of(place.a, place.b, expanding_), {kNone, kNone, kNone, kNone}};
     instant.left[0] = cone_of(problem_.fingers[0]) - std::abs(instant.squeeze.at_a) - problem_.margin;
+    // A wheel has no friction of its own: its force goes through the pin, B = 0.
     if (!path_.squeezed()) {
       instant.left[1] = cone_of(problem_.fingers[1]) - std::abs(instant.squeeze.at_b) - problem_.margin;
     }
     if (path_.squeezed()) instant.left[kStable] = stability_of(path_.way_a(), *path_.way_b(), place);
     if (problem_.may_overlap) return instant;
+    // nothing of two jaws
     const auto gap = gap_between(path_.way_a().finger(), place.a, path_.way_b()->finger(), place.b);
     if (gap) instant.left[2] = *gap - problem_.clearance;
     return instant;
   }
 
+  /// Whether all conditions hold between instant k - 1 and k: of one of both more is left than can be lost on the way.
   bool is_proved(std::size_t k) const {
     const Instant& one = instants_[k - 1];
     const Instant& two = instants_[k];
@@ -120,6 +132,7 @@ class Looker {
     return !path_.squeezed() || stability_between(path_.way_a(), *path_.way_b(), one.place, two.place) > 0;
   }
 
+  /// v of each condition. The line through the contacts turns by `line` at most, and each normal by turn_between.
   Values change_between(const Instant& one, const Instant& two) const {
     const ContactPlace& a = one.place.a;
     const ContactPlace& b = one.place.b;
@@ -127,6 +140,7 @@ class Looker {
     const double dt = std::abs(two.place.b.s - b.s);
     const double share = (ds + dt) / std::min(one.squeeze.distance, two.squeeze.distance);
     const double line = share < 1 ? std::asin(share) : std::numbers::pi;
+    // what the distance can change by, length
     const double gap = problem_.may_overlap ? 0
                                             : gap_change(path_.way_a().finger(), a, two.place.a,
                                                          path_.way_b()->finger(), b, two.place.b);
@@ -135,10 +149,13 @@ class Looker {
 
   const PlanProblem& problem_;
   const RollPath& path_;
+  /// the fingers press apart
   bool expanding_;
+  /// in order of lambda
   std::vector<Instant> instants_;
 };
 
+/// A condition's result without time and row, which follow from the motion.
 Looked looked_at(Condition condition, std::size_t finger, double value, double allowed, const PairPlace& place,
                  bool fails) {
   Looked looked;
@@ -147,6 +164,7 @@ Looked looked_at(Condition condition, std::size_t finger, double value, double a
   return looked;
 }
 
+/// Of finger a (0) or b (1).
 const ContactPlace& of(const PairPlace& place, std::size_t which) { return which == 0 ? place.a : place.b; }
 
 }  // namespace
@@ -161,6 +179,7 @@ SqueezeLook look_at_squeeze(const PlanProblem& problem, const RollPath& path, bo
   SqueezeLook look;
   look.decided = looker.prove();
   looker.sharpen();
+  // the largest angles of the force, from which the friction that is needed follows
   look.tilt = PerFinger<double>::of(2);
   for (const Instant& instant : looker.instants()) {
     look.tilt[0] = std::max(look.tilt[0], std::abs(instant.squeeze.at_a));
@@ -168,12 +187,15 @@ SqueezeLook look_at_squeeze(const PlanProblem& problem, const RollPath& path, bo
   }
   const std::array<Condition, kConditions> conditions{Condition::friction, Condition::friction, Condition::apart,
                                                       Condition::stable};
+  // Each condition that is asked for: what is left where it is worst, and if it fails, the place where it first does.
   for (std::size_t c = 0; c < kConditions; ++c) {
     const Instant& worst = looker.instants()[looker.worst(c)];
     if (std::isinf(worst.left[c])) continue;
     const bool fails = worst.left[c] < 0;
+    // friction of b, and the balance on the wheel, are finger b's; the rest is told of finger a
     const std::size_t finger = c == 1 || c == kStable ? 1 : 0;
     const bool is_friction = conditions[c] == Condition::friction;
+    // `left` is above what is asked for; the value that is reported is above 0.
     const double asked = is_friction ? problem.margin : c == kStable ? 0 : problem.clearance;
     const Instant& told = fails ? looker.telling(c) : worst;
     look.looked.push_back(looked_at(conditions[c], finger, worst.left[c] + asked,
@@ -183,10 +205,12 @@ SqueezeLook look_at_squeeze(const PlanProblem& problem, const RollPath& path, bo
   return look;
 }
 
+/// The rolled interval as a whole: what of it finger `which` cannot reach. The reach itself is proved, docs/reach.md.
 std::optional<Looked> look_at_reach(const Reach& reach, const RollPath& path, std::size_t which) {
   const Part& part = path.way_a().part();
   const std::vector<PairPlace> places = path.places(path.knots());
   const double start = of(places.front(), which).s;
+  // how far the contact goes back and on from its start
   Interval roll;
   for (const PairPlace& place : places) {
     roll.lo = std::min(roll.lo, of(place, which).s - start);
@@ -194,6 +218,7 @@ std::optional<Looked> look_at_reach(const Reach& reach, const RollPath& path, st
   }
   const auto obstruction = obstruction_of(part, reach, start, roll);
   if (!obstruction) return std::nullopt;
+  // Of the knots the one that is nearest to the obstacle.
   const auto met = std::min_element(places.begin(), places.end(), [&](const PairPlace& one, const PairPlace& two) {
     return part.distance(of(one, which).s, obstruction->s) < part.distance(of(two, which).s, obstruction->s);
   });

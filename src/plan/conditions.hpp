@@ -23,6 +23,7 @@ struct Looked {
 struct SqueezeLook {
   std::vector<Looked> looked;
   PerFinger<double> tilt;  // the largest angle of the force to each normal, radians
+  /// false: a margin is too near 0 to be proved
   bool decided = true;
 };
 SqueezeLook look_at_squeeze(const PlanProblem& problem, const RollPath& path, bool expanding);
@@ -32,6 +33,7 @@ std::optional<Looked> look_at_reach(const Reach& reach, const RollPath& path, st
 
 /// A path made a motion of the fingers and the part, in time from 0 to 1: how far along the path, rest at both ends.
 double eased(double time);
+/// Its derivative by time.
 double eased_rate(double time);
 /// Its inverse.
 double time_of(double along);
@@ -39,11 +41,14 @@ double time_of(double along);
 /// One instant of the motion: where each body's frame is, and its rates by time.
 struct BodyState {
   Pose pose;
+  /// of the frame's origin, length per time
   double vx = 0;
   double vy = 0;
+  /// radians per time
   double omega = 0;
 };
 struct MotionState {
+  /// both contacts, in the part's frame
   PairPlace place;
   BodyState part;
   PerFinger<BodyState> finger;

@@ -10,6 +10,7 @@ namespace rollfix::planning {
 
 /// What a search for a path is asked.
 struct PathQuestion {
+  /// both ways have to outlive the search
   const ContactWay* a = nullptr;
   const ContactWay* b = nullptr;
   double goal_a = 0;                                                       // x at the end, not 0
@@ -20,7 +21,9 @@ struct PathQuestion {
 
 /// A path from both first contacts: its knots in [0, 1] and both turns there.
 struct FoundPath {
+  /// lambda, from 0 to 1, growing
   std::vector<double> knots;
+  /// x and y at the knots
   std::vector<Turned> turned;
 };
 
@@ -33,6 +36,7 @@ FoundPath even_path(const ContactWay& a, double goal_a, const ContactWay* b, dou
 
 /// The path beside a wheel that is balanced at y = start: as far as x = goal, or until it turns back.
 struct BalancedPath {
+  /// up to the goal, or to where the wheel turns back
   FoundPath path;
   bool turns_back = false;  // before the goal: at the last knot
 };

@@ -11,14 +11,16 @@
 namespace rollfix {
 namespace {
 
+/// Degrees for the reader; the plan has radians.
 double in_degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
+/// The unit of lengths behind a number, if the part has one.
 std::string unit_behind(const PlanProblem& problem) {
   const std::string& unit = problem.part.unit();
   return unit.empty() ? "" : " " + unit;
 }
 
-/// "at 0.52 s (row 31), s = 1.2, t = 4.1".
+/// When and where a condition fails: the time, the row (counted from 1) and the contacts.
 std::string when(const PlanMargin& margin) {
   std::string text = fmt::format("at {:.4g} s, row {}, with the contact{} at s = {:.6g}", margin.time, margin.row + 1,
                                  margin.place.size() == 2 ? "s" : "", margin.place[0]);
@@ -26,11 +28,15 @@ std::string when(const PlanMargin& margin) {
   return text;
 }
 
+/// Why the force slips: how far it comes from the normal, and the friction that would hold it, margin included.
 std::string friction_text(const PlanProblem& problem, const PlanMargin& margin) {
   const PlanFinger& finger = problem.fingers[margin.finger];
   const std::string name = planning::name_of_finger(problem, margin.finger);
+  // |A| or |B| at worst: the cone less what is left
   const double tilt = margin.allowed - margin.value;
+  // the friction angle that would do
   const double asked = tilt + problem.margin;
+  // Beyond a right angle the force would have to pull.
   if (!finger.friction || asked >= 0.5 * std::numbers::pi) {
     return fmt::format("no friction would hold {}, first {}: at worst the force comes to {:.2f} deg from the normal",
                        name, when(margin), in_degrees(tilt));
@@ -43,8 +49,10 @@ std::string friction_text(const PlanProblem& problem, const PlanMargin& margin) 
       std::tan(asked));
 }
 
+/// Which limit is exceeded, by what is reached and what is allowed.
 std::string limit_text(const PlanProblem& problem, const PlanMargin& margin) {
   const std::string name = planning::name_of_finger(problem, margin.finger);
+  // `value` is what is left: below 0 here
   const double reached = margin.allowed - margin.value;
   const std::string unit = unit_behind(problem);
   switch (margin.condition) {
@@ -63,11 +71,13 @@ std::string limit_text(const PlanProblem& problem, const PlanMargin& margin) {
   }
 }
 
+/// The sentence for a condition that fails.
 std::string failure_text(const PlanProblem& problem, const PlanMargin& margin) {
   switch (margin.condition) {
     case Condition::friction:
       return friction_text(problem, margin);
     case Condition::reach:
+      // An obstruction without depth is a concave corner.
       if (margin.value == 0) {
         return fmt::format("{} can't roll over the concave corner {}", planning::name_of_finger(problem, margin.finger),
                            when(margin));
@@ -94,6 +104,7 @@ std::string failure_text(const PlanProblem& problem, const PlanMargin& margin) {
   }
 }
 
+/// How far each finger rolls, and in which time.
 std::string success_text(const Plan& plan, const PlanProblem& problem) {
   std::string text;
   for (std::size_t which = 0; which < plan.length.size(); ++which) {
@@ -105,6 +116,7 @@ std::string success_text(const Plan& plan, const PlanProblem& problem) {
 
 }  // namespace
 
+/// The word for a condition in JSON and on the command line.
 const char* name_of(Condition condition) {
   switch (condition) {
     case Condition::reach:
@@ -129,18 +141,22 @@ const char* name_of(Condition condition) {
   return "";
 }
 
+/// The first line of the answer: "plan: ...", "no plan: ..." with the failure that comes first, or "undecided: ...".
 std::string verdict_text(const Plan& plan, const PlanProblem& problem) {
   if (plan.failure) return "no plan: " + failure_text(problem, plan.margins[*plan.failure]);
   if (!plan.decided) return "undecided: a margin is so near 0 that it is not proved to last between the rows";
   return "plan: " + success_text(plan, problem);
 }
 
+/// The table for the robot as CSV, docs/plan.md: 17 digits, so that reading it back gives the same numbers. `finger`:
+/// its columns alone, without a suffix; none: all of them.
 std::string format_plan(const Plan& plan, std::optional<std::size_t> finger) {
   const Log& log = plan.roll.log;
   const std::size_t fingers = log.fingers.size();
   std::vector<std::pair<std::string, const std::vector<double>*>> columns{{"time", &log.time}};
   for (std::size_t which = 0; which < fingers; ++which) {
     if (finger && *finger != which) continue;
+    // With one finger in the table the columns have no suffix: it is a log of one finger.
     const std::string suffix = fingers == 1 || finger ? "" : which == 0 ? "_a" : "_b";
     const FingerRows& rows = log.fingers[which];
     const PlanRates& rates = plan.rates[which];
@@ -149,16 +165,19 @@ std::string format_plan(const Plan& plan, std::optional<std::size_t> finger) {
     columns.insert(columns.end(), {{"vx" + suffix, &rates.vx}, {"vy" + suffix, &rates.vy}});
     columns.emplace_back("omega" + suffix, &rates.omega);
   }
+  // x, y and heading of the part as columns
   std::vector<double> pose[3];
   for (const Pose& one : plan.roll.pose) {
     pose[0].push_back(one.x);
     pose[1].push_back(one.y);
     pose[2].push_back(one.heading);
   }
+  // What only a free part has.
   if (fingers == 2) {
     columns.insert(columns.end(), {{"part_x", &pose[0]}, {"part_y", &pose[1]}, {"part_heading", &pose[2]}});
     columns.emplace_back("force", &plan.force);
   }
+  // the head, then the rows
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   for (std::size_t k = 0; k < columns.size(); ++k) fmt::format_to(out, "{}{}", k == 0 ? "" : ",", columns[k].first);

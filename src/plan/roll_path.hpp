@@ -49,6 +49,7 @@ class ContactWay {
   /// As far as the finger can roll in this direction (+1 or -1), but not beyond `most`: a length, of the sign.
   double furthest(int direction, double most) const;
 
+  /// The contacts at these turns x, in any order. Throws InputError where the finger can't be.
   std::vector<ContactPlace> places(const std::vector<double>& turned) const;
 
   /// 1 / r, 0 of a jaw: the finger's where it touches.
@@ -61,8 +62,11 @@ class ContactWay {
  private:
   Motion motion(double length) const;
 
+  /// s of the first contact
   double start_;
+  /// against the part
   double psi_;
+  /// of the first contact on the finger; none of a disk
   std::optional<double> u_;
   std::unique_ptr<Track> track_;
   Motion from_start_;  // at 1 rad/s: time is x
@@ -108,7 +112,9 @@ class RollPath {
   const ContactWay* a_;
   const ContactWay* b_;
   std::vector<double> knots_;
+  /// at the knots
   std::vector<Turned> turned_;
+  /// of both turns by lambda, at the knots
   std::vector<Turned> slopes_;
   bool squeezed_;
 };

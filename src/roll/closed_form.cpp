@@ -39,15 +39,19 @@ std::vector<double> rotations_of(const Motion& motion, const std::vector<double>
 
 }  // namespace
 
+/// The contact at this value of psi. It goes from the last stretch on, either way, so that rotations near the last one
+/// cost one Newton solution.
 Walked Walk::to(double rotation) {
   beat();
   // Turned back at falls, the finger is behind by that much.
   const double rounding = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
+  // After both loops `rotation + fallen_` lies on this stretch, to rounding.
   while (rotation + fallen_ > rotation_.hi + rounding) go(1);
   while (rotation + fallen_ < rotation_.lo - rounding) go(-1);
   return solve(std::min(std::max(rotation + fallen_, rotation_.lo), rotation_.hi));
 }
 
+/// rotation_: psi at both ends of the stretch. On the stretch psi grows from one to the other.
 void Walk::enter(std::int64_t index) {
   index_ = index;
   stretch_ = track_.stretch(index);
@@ -65,11 +69,13 @@ void Walk::go(int direction) {
 Walked Walk::solve(double rotation) const {
   if (stretch_.is_finger_pivot) return {stretch_.s.lo, stretch_.angle.lo, 0};
   if (stretch_.is_pivot) return {stretch_.s.lo, stretch_.angle.lo + (rotation - rotation_.lo), 0};
+  // d psi / ds = kappa_f + kappa, above 0 where the finger fits: one root.
   const auto excess = [&](double s) {
     const Turning turning = track_.turning(stretch_, s);
     return std::pair(track_.rotation(stretch_, s, turning.angle) - rotation,
                      track_.finger_curvature(stretch_, s) + turning.curvature);
   };
+  // as if psi were straight on the stretch
   const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
   const double guess = stretch_.s.lo + share * stretch_.s.width();
   constexpr int kDigits = std::numeric_limits<double>::digits;

@@ -15,6 +15,7 @@ namespace rollfix {
 
 /// A plan made definite for one part: where it starts, and how the finger turns over time.
 struct Motion {
+  /// where the contact begins, and on which stretch
   TrackPlace start;
   double start_angle = 0;               // of the tangent
   Contact first;                        // what the sensors say there
@@ -22,6 +23,7 @@ struct Motion {
   double velocity = 0;                  // rad/s, where it is constant
   std::function<double(double)> omega;  // where it is not
 
+  /// rad/s against the part
   double omega_at(double time) const { return omega ? omega(time) : velocity; }
 };
 
@@ -36,6 +38,7 @@ std::vector<double> integrals(const std::function<double(double)>& rate, const s
 
 /// One instant of a roll.
 struct RollState {
+  /// u and psi of that instant, in the part's frame
   Contact contact;
   double s = 0;
   double angle = 0;  // of the tangent
@@ -84,8 +87,10 @@ class Walk {
 
   const Track& track_;
   double fallen_ = 0;  // over the tiny concave joints of a drawing the finger turns back: by so much psi is behind
+  /// of the stretch that it is on, and that stretch
   std::int64_t index_ = 0;
   Stretch stretch_;
+  /// psi at its ends
   Interval rotation_;
 };
 

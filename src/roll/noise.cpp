@@ -22,12 +22,14 @@ namespace rollfix {
 
 namespace {
 
+/// e, one per roll, above -1: at -1 nothing would be rolled off.
 double draw_slip(const Noise& noise, rolling::NormalNumbers& normal) {
   const double slip = normal.next(noise.slip);
   if (slip > -1) return slip;
   throw InputError(fmt::format("expected a slip that leaves some roll, found {:.6g}; take less noise", slip));
 }
 
+/// Slip and radius error of one finger, drawn in this order. Throws InputError for a radius's noise without a disk.
 RollError draw_error(const Finger& finger, const Noise& noise, rolling::NormalNumbers& normal) {
   RollError error;
   error.slip = draw_slip(noise, normal);
@@ -45,6 +47,7 @@ Finger true_finger(const Finger& finger, const RollError& error) {
   return finger.is_disk() ? Finger(DiskFinger{finger.length_per_u() + error.radius}) : finger;
 }
 
+/// A curve scaled about the origin: the point and all derivatives by the same factor.
 struct Enlarged {
   Interval domain() const { return curve.domain(); }
   Jet jet(double u) const {
@@ -67,7 +70,9 @@ Finger enlarged(const Finger& finger, double factor) {
 /// The roll of a finger with corners: what slips before a corner leaves the part elsewhere when the finger pivots.
 Roll slipping_roll(const Part& part, const Finger& finger, RollPlan plan, double slip) {
   if (slip == 0) return roll(part, finger, plan);
+  // u of the enlarged finger is (1 + e) times that of the true one, along the part as along the finger.
   const double factor = 1 + slip;
+  // the first contact of the plan, or the default: 0, of an open outline its middle
   const Interval ends = finger.ends();
   plan.u = factor * plan.u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);
   Roll result = roll(part, enlarged(finger, factor), plan);
@@ -78,16 +83,20 @@ Roll slipping_roll(const Part& part, const Finger& finger, RollPlan plan, double
     rows.x[row] = centre.x();
     rows.y[row] = centre.y();
   }
+  // the true finger's, not the enlarged one's
   rows.u_period = finger.period();
   return result;
 }
 
 /// What slips leaves the part where it is, and how the normals lie: the finger is rolled off by less, and turned.
+/// Without corners, afterwards: s and phi stay; the finger is rolled off by L / (1 + e), and psi keeps N + psi, so that
+/// the normals still meet.
 void let_slip(FingerRows& rows, const Finger& finger, double slip) {
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
     const Contact before{rows.u[row], rows.psi[row]};
     const double u = rows.u.front() + (before.u - rows.u.front()) / (1 + slip);
     const Contact after{u, before.psi + (finger.normal(before.u) - finger.normal(u))};
+    // The contact in the world stays; the arm from it to the finger's centre has turned.
     const Vec2 moved = centre_of(finger, Vec2::Zero(), after) - centre_of(finger, Vec2::Zero(), before);
     rows.u[row] = after.u;
     rows.psi[row] = after.psi;
@@ -105,6 +114,7 @@ void let_scale(FingerRows& rows, double scale) {
 /// It drifts with time.
 void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& noise, rolling::NormalNumbers& normal) {
   if (noise.drift == 0 && noise.walk == 0) return;
+  // rad/s too high, the same for the whole roll; `walked` is a random walk, whose steps are independent.
   const double bias = normal.next(noise.drift);
   double walked = 0;
   for (std::size_t row = 1; row < rows.psi.size(); ++row) {
@@ -113,6 +123,7 @@ void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& n
   }
 }
 
+/// In each row, independently: u by `contact`, a length along the finger, and psi by `angle`, radians.
 void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, rolling::NormalNumbers& normal) {
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
     rows.u[row] += normal.next(noise.contact) / finger.length_per_u();
@@ -125,6 +136,8 @@ void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise&
                rolling::NormalNumbers& normal) {
   roll.log = roll.truth.log;
   for (std::size_t k = 0; k < fingers.size(); ++k) {
+    // Slip first: the other errors are of what the sensors say of the finger that has slipped. Fingers with corners
+    // have slipped while they rolled (slipping_roll).
     FingerRows& rows = roll.log.fingers[k];
     if (roll.error[k].slip != 0 && !fingers[k].has_corners()) let_slip(rows, fingers[k], roll.error[k].slip);
     add_noise(rows, fingers[k], noise, normal);
@@ -145,6 +158,8 @@ void require_valid(const Noise& noise) {
   }
 }
 
+/// Variance of what the turn gathers between two instants: radians squared. Without times the angle's noise per lap, of
+/// a log that only says how far it has travelled.
 double drift_variance(const Noise& noise, LogKind kind, double laps, const Interval& seconds) {
   if (noise.drift > 0 || noise.walk > 0) {
     // A bias turns by as much in every second: its variance grows with the square of the time.
@@ -158,6 +173,7 @@ namespace {
 
 /// What a kind of noise may be at most on such a part, and what that is.
 double most_of(const NoiseKind& kind, double perimeter) {
+  // Contacts and radii are bounded by a lap; a centre, or a length of correlation, may be more.
   switch (kind.unit) {
     case NoiseKind::Unit::length: {
       const bool is_of_rows = kind.sd == &Noise::contact || kind.sd == &Noise::radius;
@@ -174,6 +190,7 @@ double most_of(const NoiseKind& kind, double perimeter) {
   return std::numeric_limits<double>::infinity();  // of angles the belief has a bound of its own
 }
 
+/// Throws InputError for a standard deviation so large that a number was probably meant in another unit.
 void require_sensible(const Part& part, const Noise& noise) {
   if (noise.position > 0) require_not_lost(part, noise.position, "a noise of the position", "");
   for (const NoiseKind& kind : kNoiseKinds) {
@@ -189,6 +206,7 @@ void require_sensible(const Part& part, const Noise& noise) {
 
 }  // namespace
 
+/// The sensors' noise, and with it how far the part may be off its outline.
 Noise noise_on(const Part& part, const Noise& sensors) {
   require_sensible(part, sensors);
   Noise noise = sensors;
@@ -214,18 +232,22 @@ Noise noise_of(const Finger& finger, const Finger& other, const Noise& noise) {
 
 }  // namespace
 
+/// One finger: the truth is rolled with the true radius, and with the slip where corners make it matter; the rest of
+/// the noise is added to what the sensors say.
 NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
                      std::uint64_t seed) {
   require_valid(noise);
   rolling::NormalNumbers normal(seed);
   NoisyRoll result;
   result.error[0] = draw_error(finger, noise, normal);
+  // What rolls is the finger with its true radius; the log's reader takes the nominal one.
   const Finger real = true_finger(finger, result.error[0]);
   result.truth = real.has_corners() ? slipping_roll(part, real, plan, result.error[0].slip) : roll(part, real, plan);
   let_sense(result, {real}, noise, normal);
   return result;
 }
 
+/// Two fingers, each with errors of its own. Slip of a finger with corners is refused.
 NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& noise, std::uint64_t seed) {
   require_valid(noise);
   rolling::NormalNumbers normal(seed);
@@ -241,6 +263,7 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
                       "out, or take a finger with rounded corners",
                       finger.name()));
     }
+    // The truth is rolled with the true radius; the log's reader takes the planned one.
     real.fingers[k].finger = true_finger(finger, result.error[k]);
   }
   result.truth = roll_free(part, real);
@@ -248,6 +271,7 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
   return result;
 }
 
+/// The pin goes the planned way, with a wheel of the true radius.
 NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noise, std::uint64_t seed) {
   require_valid(noise);
   rolling::NormalNumbers normal(seed);
@@ -258,6 +282,7 @@ NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noi
   real.radius += result.error[1].radius;
   result.truth = roll_rig(part, real);
   let_sense(result, {jaw(), disk(real.radius)}, noise, normal);
+  // Only the wheel's x and y are noisy: `position` is of the pin.
   FingerRows& pin = result.log.fingers[1];
   for (std::size_t row = 0; row < pin.x.size(); ++row) {
     pin.x[row] += normal.next(noise.position);
@@ -266,6 +291,7 @@ NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noi
   return result;
 }
 
+/// Equal true steps of s, and what an encoder and a gyroscope say of each.
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
                                  std::uint64_t seed, double seconds) {
   require_valid(noise);
@@ -287,16 +313,20 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
   result.log.kind = LogKind::increments;
   const double scale = noise.gyro > 0 ? normal.next(noise.gyro) : 0;
   const double bias = noise.drift > 0 ? normal.next(noise.drift) : 0;
+  // as the answer has it: the true turn is so many times the measured one
   result.turn_scale = 1 / (1 + scale);
   result.turn_bias = bias;
   const double interval = seconds > 0 ? seconds / static_cast<double>(rows) : 0;
   Odometer odometer(LogKind::increments, false);  // adds up as a reader does
   FingerRows& felt = result.log.fingers[0];
+  // Theta before this row's step
   double angle = part.turning().angle(start);
   for (std::size_t row = 1; row <= rows; ++row) {
     const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
     const double next = part.turning().angle(s);
     Reading step;
+    // Measured is the length rolled off, L / (1 + e); the turn with the gyroscope's scale, bias and walk over one
+    // interval.
     step.length[0] = length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
     step.turn = (1 + scale) * (next - angle) + bias * interval + normal.next(noise.angle);
     if (noise.walk > 0) step.turn += normal.next(noise.walk * std::sqrt(interval));
@@ -306,6 +336,7 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
     // Along the outline as the user gave it, as everything that is not of u and psi.
     step = in_stored_direction(step, part);
     const Reading sum = odometer.add({{step.length[0], 0}, {step.turn, 0}});
+    // One row: its own increment, and the sum up to it.
     felt.distance.push_back(step.length[0]);
     felt.dturn.push_back(step.turn);
     felt.length.push_back(sum.length[0]);

@@ -14,6 +14,7 @@ class NormalNumbers {
 
   /// With mean 0 and this standard deviation.
   double next(double deviation) {
+    // The polar method gives two numbers at once; the second one waits.
     if (has_spare_) {
       has_spare_ = false;
       return deviation * spare_;
@@ -21,6 +22,7 @@ class NormalNumbers {
     double x = 0;
     double y = 0;
     double square = 0;
+    // A point in the unit disk, evenly: x / sqrt(square) and the square are then independent. On average 4 / pi tries.
     do {
       x = uniform();
       y = uniform();
@@ -34,9 +36,11 @@ class NormalNumbers {
 
  private:
   /// In [-1, 1).
+  /// Of the generator's 64 bits the upper 53, as many as a double holds.
   double uniform() { return std::ldexp(static_cast<double>(generator_() >> 11U), -52) - 1; }
 
   std::mt19937_64 generator_;
+  /// with standard deviation 1
   double spare_ = 0;
   bool has_spare_ = false;
 };

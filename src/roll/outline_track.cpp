@@ -29,8 +29,10 @@ namespace {
 constexpr double kNoSize = 1e-300;   // radius of a finger that gets into every concavity
 constexpr double kTightStep = 1e-9;  // of the perimeter: how closely the place is found where a finger sticks
 
+/// Theta by arc length of the finger's outline; its normal N = Theta - pi / 2.
 const TurningFunction& turning_of(const Finger& finger) { return finger.outline()->turning(); }
 
+/// How many spirals one lap has.
 std::int64_t count_of(const TurningFunction& turning) { return static_cast<std::int64_t>(turning.spirals().size()); }
 
 /// The way of a finger with an outline: that of a point, cut where a spiral of the finger ends and another begins. The
@@ -60,14 +62,21 @@ class OutlineTrack : public Track {
     double jump = 0;  // by which the finger's tiny joints have turned it since piece 0
   };
 
+  /// REQUIRES that it was made: 0, or an index that `next` has given
   const Piece& piece(std::int64_t index) const;
+  /// the finger's spiral that the piece rolls off
   void set_cell(Piece& piece, std::int64_t cell) const;
+  /// s over which that spiral lasts
   Interval cell_range(const Piece& piece) const;
+  /// Theta and kappa_f of the finger at u = sum_ - s
   Turning on_finger(const Stretch& stretch, double s) const;
   bool has_room(const Stretch& stretch, const Interval& s) const;
   std::optional<double> first_tight(const Stretch& stretch, double from, double to) const;
+  /// ends the piece where the finger sticks
   void cut(Piece& piece, double from, int direction) const;
+  /// the next piece
   std::optional<Piece> follow(const Piece& piece, int direction) const;
+  /// a piece without length, at a corner of the finger
   Piece finger_pivot(Piece piece, std::int64_t cell, double s) const;
   bool finger_ends(std::int64_t cell) const;
   double corner_turn(std::int64_t cell) const;
@@ -90,14 +99,17 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
       u_(u),
       near_(kLengthAccuracy * std::max(part.perimeter(), finger.outline()->perimeter())) {
   const TurningFunction& on_finger = turning_of(finger);
+  // Tiny joints of the finger are no pivots: their turn is kept in Piece::jump.
   for (const Spiral& spiral : on_finger.spirals()) {
     corner_turns_.push_back(0);
     for (const Corner& corner : finger.outline()->corners()) {
       if (corner.turn > kJointTurn && std::abs(corner.s - spiral.lo) <= near_) corner_turns_.back() = corner.turn;
     }
   }
+  // A roll that starts where an open part ends can only go back.
   const int direction = !part.closed() && start >= part.perimeter() - near_ ? -1 : 1;
   const TrackPlace first = point_.place(start, direction);
+  // Of the finger's spirals the one at u, counted on over its laps: u may be any number.
   const Cursor on_cell(on_finger, u);
   const std::int64_t cell =
       static_cast<std::int64_t>(on_cell.index()) + static_cast<std::int64_t>(on_cell.winding()) * count_of(on_finger);
@@ -106,13 +118,16 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
   piece.base = first.index;
   piece.stretch = point_.stretch(first.index);
   set_cell(piece, cell);
+  // s grows as u falls: forwards the next cell is cell - 1.
   // Where one of the finger's spirals ends the roll starts on the one that lies ahead.
   if (direction > 0 && cell_range(piece).hi <= first.s + near_ && !finger_ends(cell - 1)) set_cell(piece, cell - 1);
   if (direction < 0 && cell_range(piece).lo >= first.s - near_ && !finger_ends(cell + 1)) set_cell(piece, cell + 1);
+  // The piece ends where either spiral does, the part's or the finger's.
   const Interval range = cell_range(piece);
   piece.stretch.s = {std::max(piece.stretch.s.lo, range.lo), std::min(piece.stretch.s.hi, range.hi)};
   piece.stretch.whole = piece.stretch.s;
   const Interval whole = piece.stretch.s;
+  // From the start outwards, to one side and then to the other: each cut moves its own end only.
   cut(piece, first.s, -1);
   piece.stretch.s.hi = whole.hi;
   cut(piece, first.s, 1);
@@ -120,6 +135,7 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
   if (piece.is_tight_hi && piece.stretch.s.hi <= first.s) refuse(0, 1);
 }
 
+/// `cell` is counted on over the laps of a closed finger; the shifts bring its spiral to that lap.
 void OutlineTrack::set_cell(Piece& piece, std::int64_t cell) const {
   const TurningFunction& on_finger = turning_of(finger());
   const Cursor at = Cursor::at_spiral(on_finger, cell);
@@ -144,10 +160,13 @@ double OutlineTrack::corner_turn(std::int64_t cell) const {
 /// The places of the part that the finger's spiral can roll over.
 Interval OutlineTrack::cell_range(const Piece& piece) const {
   const Spiral& spiral = *piece.stretch.finger_spiral;
+  // s = sum - u, and u goes from spiral.lo to spiral.hi plus the lap's shift: the larger u is the smaller s.
   const double offset = sum_ - piece.stretch.finger_u_shift;
   return {offset - spiral.hi, offset - spiral.lo};
 }
 
+/// The finger's tangent and curvature at the place that touches when the contact is at s: u = sum - s, clamped to the
+/// piece's own spiral, so that at a corner of the finger it is the side that the piece rolls on.
 Turning OutlineTrack::on_finger(const Stretch& stretch, double s) const {
   const Spiral& spiral = *stretch.finger_spiral;
   const double u = std::clamp(sum_ - s - stretch.finger_u_shift, spiral.lo, spiral.hi);
@@ -156,10 +175,12 @@ Turning OutlineTrack::on_finger(const Stretch& stretch, double s) const {
   return result;
 }
 
+/// psi up to a constant, eq. (3): Theta(s) - N(u), with the finger's own tangent angle, N + pi / 2, in place of N.
 double OutlineTrack::rotation(const Stretch& stretch, double s, double angle) const {
   return angle - on_finger(stretch, s).angle;
 }
 
+/// kappa_f = dN / du
 double OutlineTrack::finger_curvature(const Stretch& stretch, double s) const {
   return on_finger(stretch, s).curvature;
 }
@@ -172,6 +193,8 @@ Contact OutlineTrack::first_contact(const TrackPlace& place, double tangent, dou
 
 /// Whether the finger surely fits all along: both curvatures are monotone.
 bool OutlineTrack::has_room(const Stretch& stretch, const Interval& s) const {
+  // The least values of both may lie at different ends: their sum is a lower bound of kappa + kappa_f, and false only
+  // means that halving has to go on.
   const double part_least = std::min(turning(stretch, s.lo).curvature, turning(stretch, s.hi).curvature);
   const double finger_least = std::min(finger_curvature(stretch, s.lo), finger_curvature(stretch, s.hi));
   return (part_least + finger_least) * part().perimeter() / (2 * std::numbers::pi) > kLeastClearance;
@@ -180,8 +203,10 @@ bool OutlineTrack::has_room(const Stretch& stretch, const Interval& s) const {
 /// Where, on the way from one place to another, the finger does not surely fit any more.
 std::optional<double> OutlineTrack::first_tight(const Stretch& stretch, double from, double to) const {
   if (has_room(stretch, {std::min(from, to), std::max(from, to)})) return std::nullopt;
+  // Not proved for a stretch this short: the finger sticks here, within kTightStep.
   if (std::abs(to - from) <= kTightStep * part().perimeter()) return from;
   const double middle = from + 0.5 * (to - from);
+  // The half next to `from` first: it is the first tight place on the way that counts.
   if (const auto near = first_tight(stretch, from, middle)) return near;
   return first_tight(stretch, middle, to);
 }
@@ -195,6 +220,7 @@ void OutlineTrack::cut(Piece& piece, double from, int direction) const {
       end = *tight;
       (direction > 0 ? piece.is_tight_hi : piece.is_tight_lo) = true;
     }
+    // Theta at the ends that are left
     stretch.angle = {turning(stretch, stretch.s.lo).angle, turning(stretch, stretch.s.hi).angle};
   }
 }
@@ -211,6 +237,7 @@ OutlineTrack::Piece OutlineTrack::finger_pivot(Piece piece, std::int64_t cell, d
 }
 
 /// The piece behind this one's end; nothing where there is none.
+/// Where the part's spiral is over the next base follows, where the finger's is over the next cell; it may be both.
 std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int direction) const {
   if (direction > 0 ? piece.is_tight_hi : piece.is_tight_lo) return std::nullopt;
   const double edge = direction > 0 ? piece.stretch.s.hi : piece.stretch.s.lo;
@@ -232,12 +259,17 @@ std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int 
   const bool is_pivoted = piece.stretch.is_finger_pivot;
   const bool takes_new_cell = is_pivoted ? direction > 0 : cell_is_over && !found.stretch.is_pivot;
   const std::int64_t cell = takes_new_cell ? piece.cell - direction : piece.cell;
+  // An open finger ends here: the roll is over.
   if (finger_ends(cell)) return std::nullopt;
+  // Two cells meet at the lower end of the upper one, in u.
   const std::int64_t upper = std::max(cell, piece.cell);
   const bool is_at_corner = is_pivoted || (takes_new_cell && corner_turn(upper) > 0);
+  // A corner of the finger comes first: a pivot between the two spirals. After it the spiral beyond follows.
   if (is_at_corner && !is_pivoted) return finger_pivot(found, upper, edge);
   set_cell(found, cell);
+  // A pivot of the part: no length, and nothing to cut.
   if (found.stretch.is_pivot) return found;
+  // Across a tiny joint of the finger N jumps without a pivot: it is added up, and taken off in fall_between.
   if (takes_new_cell && !is_at_corner)
     found.jump += on_finger(piece.stretch, edge).angle - on_finger(found.stretch, edge).angle;
   const Interval on = cell_range(found);
@@ -248,11 +280,13 @@ std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int 
   }
   found.stretch.whole = found.stretch.s;
   cut(found, direction > 0 ? found.stretch.s.lo : found.stretch.s.hi, direction);
+  // The finger sticks where the next piece would begin: there is none.
   const bool is_shut = direction > 0 ? found.is_tight_hi : found.is_tight_lo;
   if (is_shut && found.stretch.s.width() <= 0) return std::nullopt;
   return found;
 }
 
+/// Index 0, 1, 2 ... in `ahead_`, -1, -2 ... in `behind_`.
 const OutlineTrack::Piece& OutlineTrack::piece(std::int64_t index) const {
   return index >= 0 ? ahead_[static_cast<std::size_t>(index)] : behind_[static_cast<std::size_t>(-1 - index)];
 }
@@ -262,6 +296,7 @@ std::optional<std::int64_t> OutlineTrack::next(std::int64_t index, int direction
   std::vector<Piece>& side = direction > 0 ? ahead_ : behind_;
   const auto last =
       direction > 0 ? static_cast<std::int64_t>(ahead_.size()) - 1 : -static_cast<std::int64_t>(behind_.size());
+  // The outermost piece on this side: one more is made, if the finger can go on.
   if (index != last) return found;
   const std::optional<Piece> fresh = follow(piece(index), direction);
   if (!fresh) return std::nullopt;
@@ -278,6 +313,7 @@ TrackPlace OutlineTrack::place(double s, int direction) const {
   const auto is_ahead = [&](const Stretch& at) {
     return direction < 0 ? there <= at.s.lo + near_ : there < at.s.lo - near_;
   };
+  // From piece 0 outwards, making pieces as needed. At most one of both directions does anything.
   std::int64_t index = 0;
   for (const int way : {1, -1}) {
     while (way > 0 ? is_behind(piece(index).stretch) : is_ahead(piece(index).stretch)) {
@@ -290,10 +326,12 @@ TrackPlace OutlineTrack::place(double s, int direction) const {
   return {index, std::clamp(there, on.lo, on.hi)};
 }
 
+/// The part's falls on the way, and how far the finger's own tiny joints have turned it.
 double OutlineTrack::fall_between(std::int64_t from, std::int64_t to) const {
   return point_.fall_between(piece(from).base, piece(to).base) + piece(to).jump - piece(from).jump;
 }
 
+/// First as for a point: ends and concave corners of the part. Then piece by piece, up to where the finger sticks.
 void OutlineTrack::require_way(double from, double to) const {
   point_.require_way(from, to);
   const int direction = to < from ? -1 : 1;
@@ -305,6 +343,7 @@ void OutlineTrack::require_way(double from, double to) const {
   }
 }
 
+/// Of the three reasons the first that holds: the part's own (an end, a concave corner), the finger's end, or no room.
 void OutlineTrack::refuse(std::int64_t index, int direction) const {
   const Piece& here = piece(index);
   const double edge = direction > 0 ? here.stretch.s.hi : here.stretch.s.lo;
@@ -341,6 +380,7 @@ std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double s
   if (finger.is_disk()) {
     require_not_lost(part, finger.length_per_u(), "a disk with a radius", ": give it in the outline's unit");
   }
+  // A disk or a jaw is alike all around: its way does not depend on where it is touched.
   if (finger.outline() == nullptr) return std::make_unique<EvenTrack>(part, finger, u.value_or(0));
   const Interval ends = finger.ends();
   const double place = u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);

@@ -50,6 +50,7 @@ class FeltPart {
   std::size_t rows() const { return u_.size(); }
 
  private:
+  /// s = start - (arc length on the finger since the first row): both cover the same length.
   double place(std::size_t row) const { return start_ - finger_.length_per_u() * (u_[row] - u_[0]); }
   Contact contact(std::size_t row) const { return {u_[row], psi_[row]}; }
   Interval tangents(double s) const;
@@ -58,7 +59,9 @@ class FeltPart {
   Finger finger_;
   const FingerRows& rows_;
   double start_;
+  /// length: a contact on the finger this near to one of its corners may be on it
   double within_;
+  /// unwrapped, as is psi_
   std::vector<double> u_;
   std::vector<double> psi_;
 };
@@ -68,10 +71,12 @@ Interval FeltPart::tangents(double s) const {
   const TurningFunction& turning = part_.turning();
   const double P = part_.perimeter();
   for (const Corner& corner : part_.corners()) {
+    // Signed distance to the corner, to the nearest lap.
     const double ahead = part_.closed() ? std::remainder(s - corner.s, P) : s - corner.s;
     if (std::abs(ahead) > kOnCorner * P) continue;
     const double laps = part_.closed() ? std::round((s - corner.s) / P) : 0;
     const double lap_turn = laps * turning.period_turn();
+    // Theta before and after the jump; at a concave corner the smaller one is the one after.
     const double before = turning.angle(corner.s, Side::before) + lap_turn;
     const double after = turning.angle(corner.s, Side::after) + lap_turn;
     return {std::min(before, after), std::max(before, after)};
@@ -81,6 +86,7 @@ Interval FeltPart::tangents(double s) const {
 }
 
 Interval FeltPart::heading(std::size_t row) const {
+  // phi = N + psi - pi / 2 - Theta: least for the least N and the largest Theta.
   const Interval tangent = tangents(place(row));
   const Interval normals = finger_.normals(u_[row], within_);
   const double psi = psi_[row] - std::numbers::pi / 2;
@@ -94,6 +100,7 @@ Vec2 FeltPart::in_world(std::size_t row) const {
 
 double clamped(double value, const Interval& interval) { return std::clamp(value, interval.lo, interval.hi); }
 
+/// The pose with this heading that brings the contact on the part to where it is in the world: X = q - R(phi) p.
 Pose pose_with(double heading, const Vec2& on_part, const Vec2& in_world) {
   Pose pose{0, 0, heading};
   const Vec2 origin = in_world - pose.turned(on_part);
@@ -110,9 +117,11 @@ double resting_heading(const FeltPart& felt) {
   Interval common = felt.heading(0);
   for (std::size_t row = 0; row < felt.rows(); ++row) {
     const Interval heading = felt.heading(row);
+    // Exact: off the corners a single row tells the heading.
     if (heading.width() == 0) return heading.lo;
     common = {std::max(common.lo, heading.lo), std::min(common.hi, heading.hi)};
   }
+  // All rows are on corners: what all intervals have in common, and its middle where more than one heading is possible.
   return common.middle();
 }
 
@@ -130,17 +139,23 @@ double chord_heading(const FeltPart& a, const FeltPart& b, std::size_t row) {
 Agreed agreed_heading(const FeltPart& a, const FeltPart& b, std::size_t row) {
   const Interval of_a = a.heading(row);
   Interval of_b = b.heading(row);
+  // Both headings are known up to whole turns only: b's is brought next to a's.
   const double turns = kFullTurn * std::round((of_a.middle() - of_b.middle()) / kFullTurn);
   of_b = {of_b.lo + turns, of_b.hi + turns};
   const Interval common{std::max(of_a.lo, of_b.lo), std::min(of_a.hi, of_b.hi)};
+  // Without pivots both intervals are points: the mean, and how far they are apart. Apart, too, if the pivots do not
+  // overlap.
   if (common.width() <= 0) return {common.middle(), std::abs(common.width())};
+  // Both pivot: any heading in common fits the normals, and the chord chooses one of them.
   const double chord = chord_heading(a, b, row);
   const double nearest = chord + kFullTurn * std::round((common.middle() - chord) / kFullTurn);
   return {clamped(nearest, common), 0};
 }
 
+/// One finger: the part is at rest, and each row gives a pose of its own. Residuals compare it with the first row.
 Poses resting_poses(const FeltPart& felt, const std::vector<std::size_t>& rows) {
   const double resting = resting_heading(felt);
+  // Where a row's heading is an interval, the resting heading if it is in there, else the nearest end.
   const double first = clamped(resting, felt.heading(0));
   const double turns = turns_to_near(first);
   const Vec2 first_on_part = felt.on_part(0);
@@ -156,6 +171,8 @@ Poses resting_poses(const FeltPart& felt, const std::vector<std::size_t>& rows) 
   return result;
 }
 
+/// Two fingers: in each row both have one heading, and each gives an origin of the part; the mean is the pose, and
+/// their distance the residual.
 Poses moving_poses(const FeltPart& a, const FeltPart& b, const std::vector<std::size_t>& rows) {
   const double turns = turns_to_near(agreed_heading(a, b, 0).heading);
   Poses result;
@@ -175,6 +192,7 @@ Poses moving_poses(const FeltPart& a, const FeltPart& b, const std::vector<std::
 
 std::optional<Poses> poses(const Part& part, const std::vector<Finger>& fingers, const Log& log,
                            const PerFinger<double>& start, const std::vector<std::size_t>& rows, const Noise& noise) {
+  // Of travelled lengths, or without a finger's centre, nothing is known of the world.
   const bool tells =
       !fingers.empty() && log.kind == LogKind::contact &&
       std::none_of(log.fingers.begin(), log.fingers.end(), [](const FingerRows& finger) { return finger.x.empty(); });

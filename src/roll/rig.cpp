@@ -30,6 +30,7 @@
 namespace rollfix {
 namespace {
 
+// Newton's method gives up after so many steps.
 constexpr int kMostIterations = 40;
 // Of the part's size and the wheel's. Closed to less than the first, iterations that gain nothing any more are over;
 // never is a row taken that is not closed to the second.
@@ -58,10 +59,12 @@ constexpr double kNothingBetween = 1e-6;
 // Of a squeezed rig's start: how far the wheel's normal may miss the jaw's contact, as a share of the size.
 constexpr double kOnNormal = 1e-9;
 
+/// Throws InputError for a number that is not finite.
 void require_number(double value, const char* what) {
   if (!std::isfinite(value)) throw InputError(fmt::format("expected a finite {} of a rig, found {}", what, value));
 }
 
+/// Throws InputError for numbers out of range. Whether the pin's motion is possible only following it tells.
 void require_consistent(const RigPlan& plan) {
   if (plan.start.size() != 2) throw InputError("expected two starts of a rig, the jaw's and the wheel's, found one");
   require_number(plan.start[0], "start of the jaw");
@@ -88,6 +91,7 @@ class Course {
     fall_ = largest_fall();
   }
 
+  /// The rig at the last row that was reached.
   const rolling::RigState& now() const { return now_; }
   const rolling::RigClosure& closure() const { return closure_; }
 
@@ -95,6 +99,7 @@ class Course {
   void go_to(std::size_t row) {
     double from = times_[row - 1];
     const double whole = times_[row] - from;
+    // At each turn `now_` is the rig at `from`, closed. A step that works is doubled, one that does not is halved.
     double step = whole;
     while (from < times_[row]) {
       const bool is_last = from + step >= times_[row];
@@ -120,6 +125,7 @@ class Course {
     return moved;
   }
 
+  /// The first motion of the pin that is not 0: the direction in which the rig leaves its start.
   Vec2 first_displacement() const {
     for (const double time : times_) {
       Vec2 moved = displacement(time);
@@ -130,10 +136,14 @@ class Course {
                          : "expected a pin that moves in the jaw's frame, found one that stays: nothing would roll");
   }
 
+  /// What the value has to be at this time.
   Vec2 target(double time) const { return start_value_ + displacement(time); }
 
+  /// Throws InputError where the closure does not say how the part moves: g = 0, where the determinant r g vanishes; of
+  /// a squeezed rig a wheel that is not opposite, or a grip that is not stable.
   void require_start(const Part& part) {
     const std::string where = places_text();
+    // Not squeezed: the determinant r g of the closure must not vanish.
     if (!plan_.squeezed) {
       if (std::abs(now_.margin) > kLeastMargin * closure_.size()) return;
       throw InputError(
@@ -147,7 +157,9 @@ class Course {
                       "one that passes by at {:.6g} ({}); squeezed_places finds where it does",
                       part.name(), std::abs(now_.value.y()), where));
     }
+    // g at the start is rounding: from here on it is held at 0, so that the error does not go along.
     start_value_.y() = 0;
+    // The wheel's normal points against the jaw's, and the pin is on the part's side of the jaw.
     const bool is_opposite = std::cos(now_.wheel.angle - now_.jaw.angle) < 0 && now_.pin.y() < 0;
     if (is_opposite && now_.margin > kLeastMargin * closure_.size()) return;
     throw InputError(
@@ -156,6 +168,7 @@ class Course {
                     part.name(), where));
   }
 
+  /// Where both touch, on the first lap, for messages.
   std::string places_text() const {
     const Boundary boundary = closure_.jaw().part().boundary();
     return fmt::format("the jaw at s = {:.9g}, the wheel at {:.9g}", boundary.base(now_.jaw.s),
@@ -184,27 +197,33 @@ class Course {
   /// The rig at this time if it can be followed there in one step.
   std::optional<rolling::RigState> try_step(double to) {
     const Vec2 wanted = target(to);
+    // One step of Newton's method from the last row: the prediction. A solution further away than `reach` would be
+    // another way to hold the part.
     const Vec2 lead = now_.slope.inverse() * (wanted - now_.value);
     const double reach = kNear * lead.norm() + kRigRounding + kFalls * fall_;
     const Vec2 predicted = now_.rotations + lead;
     Vec2 rotations = predicted;
     double best = std::numeric_limits<double>::infinity();
+    // the best so far: closest to the wanted value
     std::optional<rolling::RigState> found;
     for (int k = 0; k < kMostIterations; ++k) {
       if (!((rotations - predicted).norm() <= reach)) return std::nullopt;
       try {
         const rolling::RigState state = closure_.at(rotations);
         const double off = (state.value - wanted).norm();
+        // Rounding: it gets no closer.
         if (!(off < best)) break;
         best = off;
         found = state;
         if (off <= kClosed * closure_.size()) break;
         rotations += state.slope.inverse() * (wanted - state.value);
       } catch (const InputError& error) {
+        // A finger can't turn so far: for `stop` to say, if no shorter step works either.
         refusal_ = error.what();
         return std::nullopt;
       }
     }
+    // The margin keeps its sign on one branch of solutions; it is 0 where two branches meet.
     return found && best <= closed_to(*found) && found->margin * sign_ > 0 ? found : std::nullopt;
   }
 
@@ -242,9 +261,11 @@ class Course {
     const std::string possible = plan_.squeezed ? fmt::format("{:.6g} along the jaw", moved.x())
                                                 : fmt::format("({:.6g}, {:.6g})", moved.x(), moved.y());
     const std::string head = fmt::format("row {} of the log, at {:.6g} s: ", row + 1, time);
+    // What can be said of the plan: how far the pin gets.
     const std::string cure = fmt::format("the pin can move by {}", possible);
     const std::string tightness = tightness_text();
     const bool is_gone = tightness.empty() && is_margin_gone(row);
+    // A finger that can't go there is the reason, unless the margin is gone too.
     if (!is_gone && !refusal_.empty()) throw InputError(head + refusal_ + "; " + cure);
     if (!is_gone) {
       throw InputError(
@@ -266,8 +287,11 @@ class Course {
   const std::vector<double>& times_;
   rolling::RigClosure closure_;
   rolling::RigState now_;
+  /// xi, eta at the start; squeezed xi, 0
   Vec2 start_value_ = Vec2::Zero();
+  /// of the margin, the same as long as the rig can be followed
   double sign_ = 1;
+  /// largest_fall(), radians
   double fall_ = 0;
   std::string refusal_;  // where a finger could not go there: why a step from here was impossible
 };
@@ -277,6 +301,7 @@ class Recorder {
  public:
   Recorder(const Part& part, const RigPlan& plan, const rolling::RigState& first)
       : part_(part), plan_(plan), first_(first) {
+    // Of the jaw u is given and psi follows; of the wheel psi is given and v follows.
     const double tangent = first.jaw.angle + plan.pose.heading;
     const Contact on_jaw = contact_at(jaw(), tangent, plan.u);
     const Vec2 origin = centre_of(jaw(), plan.pose.world(part.point(first.jaw.s)), on_jaw);
@@ -289,14 +314,20 @@ class Recorder {
     roll_.log.fingers[0].u_period = jaw().period();
   }
 
+  /// One row: the part, the wheel and the pin follow from the jaw's pose in the world and from both contacts.
   void add(double time, const rolling::RigState& state) {
+    // What the jaw itself does in the world moves everything along and changes no contact.
     const Pose moved = plan_.jaw ? plan_.jaw(time) : Pose{};
     const Pose jaw_pose{jaw_.x + moved.x, jaw_.y + moved.y, jaw_.heading + moved.heading};
+    // The jaw's normal N stays on the jaw: phi + Theta(s) turns with the jaw alone.
     Pose part{0, 0, plan_.pose.heading + moved.heading - (state.jaw.angle - first_.jaw.angle)};
+    // The contacts coincide: (u, 0) of the jaw and p(s) of the part.
     const Vec2 origin = jaw_pose.world({state.u, 0}) - part.turned(part_.point(state.jaw.s));
     part.x = origin.x();
     part.y = origin.y();
+    // rolling without slip: L = -r (v - v_0)
     const double v = first_v_ - (state.wheel.s - first_.wheel.s) / plan_.radius;
+    // of the part's tangent at the wheel, in the world; psi has what v does not take: eq. (3)
     const double turned = state.wheel.angle - first_.wheel.angle + part.heading - plan_.pose.heading;
     const Contact on_wheel{v, plan_.psi + turned - (v - first_v_)};
     const Vec2 touched = part.world(part_.point(state.wheel.s));
@@ -307,12 +338,14 @@ class Recorder {
     roll_.pose.push_back(part);
   }
 
+  /// The log. Throws InputError if its rows are so far apart that a reader could not tell whether psi is wrapped.
   Roll roll() {
     for (const FingerRows& rows : roll_.log.fingers) require_readable(rows, roll_.log.name);
     return std::move(roll_);
   }
 
  private:
+  /// What finger k's sensors say, and where it touches.
   void add_row(std::size_t finger, const Contact& contact, const Vec2& centre, const Walked& place) {
     FingerRows& rows = roll_.log.fingers[finger];
     rows.u.push_back(contact.u);
@@ -326,13 +359,16 @@ class Recorder {
   const Part& part_;
   const RigPlan& plan_;
   rolling::RigState first_;
+  /// of the jaw's frame in the world
   Pose jaw_;  // at the start
+  /// v at the start, radians
   double first_v_ = 0;
   Roll roll_;
 };
 
 }  // namespace
 
+/// Row by row from the start: each is solved anew, so that errors do not add up.
 Roll roll_rig(const Part& part, const RigPlan& plan) {
   require_consistent(plan);
   std::vector<double> times(plan.rows);
@@ -348,6 +384,7 @@ Roll roll_rig(const Part& part, const RigPlan& plan) {
   return recorder.roll();
 }
 
+/// Leaves out what the wheel's sensors do not measure. The pin's x and y always stay.
 Log sensed_by(WheelSensors sensors, Log log) {
   if (log.fingers.size() != 2) throw InputError("expected the log of a rig, of two fingers, found one of one finger");
   FingerRows& wheel = log.fingers[1];

@@ -30,10 +30,12 @@
 namespace rollfix::rolling {
 namespace {
 
+/// T and n of the part where the tangent points to `angle`: the material is on the left, so that n is on the right.
 Vec2 tangent_to(double angle) { return {std::cos(angle), std::sin(angle)}; }
 Vec2 out_of_part(double angle) { return {std::sin(angle), -std::cos(angle)}; }
 int sign_of(double value) { return value < 0 ? -1 : 1; }
 
+// Into so many equal steps squeezed_places divides the boundary: two zeros of g in one step are missed.
 constexpr int kSteps = 4000;
 
 /// What a wheel at t, with the tangent just before or after it, says of a jaw at s.
@@ -42,6 +44,8 @@ class Opposite {
   Opposite(const Part& part, double radius, double s)
       : part_(part), radius_(radius), jaw_(part.turning().at(s)), point_(part.point(s)) {}
 
+  /// g(s, t) of the wheel at t, length; 0 where its normal passes through the jaw's contact. At a corner with Theta
+  /// just after it.
   double miss(double t) const {
     const double angle = part_.turning().angle(t);
     return (part_.point(t) - point_).dot(Vec2(std::cos(angle), std::sin(angle)));
@@ -52,11 +56,13 @@ class Opposite {
     const Turning wheel = part_.turning().at(t);
     const double distance = (part_.point(t) - point_).dot(Vec2(std::sin(wheel.angle), -std::cos(wheel.angle)));
     const double cos_d = std::cos(wheel.angle - jaw_.angle);
+    // The header's condition times d b / dt and kappa(s), with |cos d| = -cos d: docs/rolling.md, "Squeezed".
     const double hold = -cos_d * (1 + radius_ * wheel.curvature) +
                         (1 - wheel.curvature * distance) * jaw_.curvature * (distance + radius_);
     return distance > 0 && cos_d < 0 && 1 + radius_ * wheel.curvature > 0 && jaw_.curvature > 0 && hold > 0;
   }
 
+  /// The zero of g between two places at which its signs differ.
   double zero(double lo, double hi, double at_lo, double at_hi) const {
     std::uintmax_t iterations = 100;
     const boost::math::tools::eps_tolerance<double> full(std::numeric_limits<double>::digits);
@@ -90,6 +96,7 @@ void RigClosure::start_walks(const Vec2& displacement) {
   s.per_rotation = 1 / part_.turning().curvature(start_[0]);
   t.per_rotation = 1 / (1 / plan_.radius + part_.turning().curvature(start_[1]));
   const Vec2 leads = state(s, t).slope.inverse() * Vec2(displacement.x(), plan_.squeezed ? 0 : displacement.y());
+  // The stretch that lies ahead in the direction of the lead: of a corner the side on which the motion leaves it.
   const auto begin = [&](const Track& track, double start, double lead, Walked& first, std::unique_ptr<Walk>& walk) {
     const TrackPlace place = track.place(start, sign_of(lead));
     const Stretch stretch = track.stretch(place.index);
@@ -100,11 +107,13 @@ void RigClosure::start_walks(const Vec2& displacement) {
   Vec2 rotations;
   naming(kFingerNames[0], [&] { rotations.x() = begin(*jaw_, start_[0], leads.x(), s, jaw_walk_); });
   naming(kFingerNames[1], [&] { rotations.y() = begin(*wheel_, start_[1], leads.y(), t, wheel_walk_); });
+  // The contact that the walk has, so that s + u stays to the last bit.
   start_[0] = s.s;
   first_ = state(s, t);
   first_.rotations = rotations;
 }
 
+/// Both walks to these rotations, and what follows from them. Costs one Newton solution on each finger's stretch.
 RigState RigClosure::at(const Vec2& rotations) {
   Walked s;
   Walked t;
@@ -115,6 +124,7 @@ RigState RigClosure::at(const Vec2& rotations) {
   return result;
 }
 
+/// The closure's equations and their derivatives of this file's head, from both contacts.
 RigState RigClosure::state(const Walked& jaw, const Walked& wheel) const {
   const double r = plan_.radius;
   RigState result;
@@ -123,6 +133,7 @@ RigState RigClosure::state(const Walked& jaw, const Walked& wheel) const {
   result.u = plan_.u - (jaw.s - start_[0]);
   const Vec2 chord = part_.point(wheel.s) - part_.point(jaw.s);
   const Vec2 normal = out_of_part(wheel.angle);
+  // c - p(s)
   const Vec2 to_pin = chord + r * normal;
   const double along = to_pin.dot(tangent_to(jaw.angle));
   const double eta = to_pin.dot(out_of_part(jaw.angle));
@@ -131,13 +142,16 @@ RigState RigClosure::state(const Walked& jaw, const Walked& wheel) const {
   const double sin_d = std::sin(wheel.angle - jaw.angle);
   result.pin = {result.u - along, eta};
   result.value = result.pin;
+  // d xi and d eta by (a, b); along = u - xi
   result.slope << eta, -r * cos_d, along, -r * sin_d;
   result.margin = miss;
   if (!plan_.squeezed) return result;
   const double distance = chord.dot(normal);  // D
+  // dg / db, since dTheta(t) / db = 1 - (dt / db) / r
   const double miss_per_wheel = wheel.per_rotation - distance * (1 - wheel.per_rotation / r);
   result.value.y() = miss;
   result.slope.row(1) << -cos_d * jaw.per_rotation, miss_per_wheel;
+  // above 0 where stable; over the size, so that it is a length as g is
   result.margin = (std::abs(cos_d) * r * jaw.per_rotation + (distance + r) * miss_per_wheel) / size_;
   return result;
 }

@@ -50,7 +50,9 @@ class Track {
   const Part& part() const { return part_; }
   const Finger& finger() const { return finger_; }
 
+  /// The piece with this index; neighbours have neighbouring indices, growing with s.
   virtual Stretch stretch(std::int64_t index) const = 0;
+  /// Theta and kappa of the part at s on this stretch, unwrapped.
   Turning turning(const Stretch& stretch, double s) const;
 
   /// The place s on the stretch that a finger is on when it leaves in this direction (+1 or -1): at a corner or a
@@ -120,15 +122,22 @@ class EvenTrack : public Track {
 
   /// The spiral that starts at knot k.
   Cursor after(std::int64_t k) const { return Cursor::at_spiral(turning_, k); }
+  /// REQUIRES that s is on the part.
   Found find(double s, int direction) const;
+  /// Throws InputError off the ends of an open part.
   void require_inside(double s) const;
   /// Above 0 where the finger fits; of a jaw, whose radius is infinite, the curvature in turns per lap.
   double clearance(double curvature) const;
   bool fits(double curvature) const { return clearance(curvature) > 0; }
+  /// No stretch with this index: an open part's ends.
   bool ends_at(std::int64_t index) const;
+  /// s, on the first lap, where the finger's reach on a spiral ends that fits at one end only.
   double limit_on(const Spiral& spiral) const;
+  /// The knot within rounding of a place of the first lap.
   std::optional<std::int64_t> knot_at(double base) const;
+  /// By how much Theta jumps at a knot, radians; 0 at a smooth one, and at the ends of an open part.
   double corner_turn(std::int64_t k) const { return ends_at(2 * k) ? 0 : corner_turns_[after(k).index()]; }
+  /// Notes the tighter of both ends.
   void look_at(const Stretch& stretch, double lo, double hi, Tightest& tightest) const;
   [[noreturn]] void refuse_tight(const Tightest& tightest) const;
   [[noreturn]] void refuse_corner(double s, double turn) const;
@@ -137,6 +146,7 @@ class EvenTrack : public Track {
   const TurningFunction& turning_;
   double radius_;  // infinite of a jaw
   double u_;       // of a jaw's first contact
+  /// of all tiny concave joints, radians, 0 or below
   double fall_per_lap_ = 0;
   std::vector<double> corner_turns_;  // at the start of each spiral; 0: no corner
 };
