@@ -22,8 +22,13 @@ constexpr double kArcGrain = 1e-12;
 
 }  // namespace
 
+/// With noise kTouchSigmas standard deviations. Errors of the angle and of the place are added, not their squares,
+/// which only widens the slack. A contact that is off by n along the finger turns
+/// the measured normal by n times the finger's curvature. What n turns the part's tangent by is not in `angle`: the
+/// arc is widened by `travel` instead.
 Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_noise) {
   if (!has_noise) return {errors.travel, errors.angle, errors.place};
+  // e stretches all that was travelled since the first row.
   const double travel = std::hypot(errors.travel, errors.stretch * contact.travelled);
   Slack slack;
   slack.travel = kTouchSigmas * travel;
@@ -34,6 +39,7 @@ Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_no
 
 HeldPart::HeldPart(const Part& whole) : part(whole), range(whole.turning(), kCells) {}
 
+/// Looks at the whole boundary first: the root is [0, P].
 ArcTree::ArcTree(const HeldPart& part, const HeldRows& rows, std::size_t finger,
                  const std::vector<std::size_t>& instants, const Reach* reach)
     : part_(part), has_place_(rows.errors[finger].has_place) {
@@ -42,6 +48,7 @@ ArcTree::ArcTree(const HeldPart& part, const HeldRows& rows, std::size_t finger,
     travelled_.push_back(contact.travelled);
     slacks_.push_back(slack_of(rows.errors[finger], contact, rows.has_noise));
   }
+  // Over all rows, not only those searched with: a finger may pass over a concave corner between two of these.
   sweep_ = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const HeldRow& row : rows.rows) {
     const HeldContact& contact = row.contacts[finger];
@@ -49,17 +56,20 @@ ArcTree::ArcTree(const HeldPart& part, const HeldRows& rows, std::size_t finger,
     sweep_.lo = std::min(sweep_.lo, contact.travelled + off);
     sweep_.hi = std::max(sweep_.hi, contact.travelled - off);
   }
+  // An undecided reach counts as whole, so that it excludes nothing.
   if (reach != nullptr && reach->decided && !reach->is_whole()) {
     confined_ = true;
     reach_ = reach->arcs;
     gaps_ = reach->gaps();
     for (const PivotReach& pivot : reach->pivots) {
+      // A corner at which some pivot is possible is within reach, though no arc may hold it.
       if (!pivot.angles.empty()) reach_.push_back({pivot.s, pivot.s});
     }
   }
   add({0, part.part.perimeter()});
 }
 
+/// Where the contact can be at an instant: [lo + L - a, hi + L + a].
 Interval ArcTree::moved(const Interval& s, std::size_t instant) const {
   return {s.lo + travelled_[instant] - slacks_[instant].travel, s.hi + travelled_[instant] + slacks_[instant].travel};
 }
@@ -68,11 +78,14 @@ Interval ArcTree::moved(const Interval& s, std::size_t instant) const {
 bool ArcTree::can_be(const Interval& s) const {
   const Boundary boundary = part_.part.boundary();
   const double grain = kArcGrain * boundary.perimeter;
+  // From whichever place of s the finger started, it rolls over all of `passed`: at the row with the least L it is not
+  // behind hi + least L + a, at the row with the most L not before lo + most L - a.
   const Interval passed{s.hi + sweep_.lo + grain, s.lo + sweep_.hi - grain};
   if (!boundary.closed && passed.hi > passed.lo && (passed.lo < -grain || passed.hi > boundary.perimeter + grain)) {
     return false;
   }
   for (std::size_t t = 0; t < travelled_.size(); ++t) {
+    // At each instant the contact must be on an open boundary, and meet what the finger can reach.
     const Interval arc = moved(s, t);
     if (!boundary.closed && (arc.hi < 0 || arc.lo > boundary.perimeter)) return false;
     if (confined_ && std::none_of(reach_.begin(), reach_.end(),
@@ -80,6 +93,7 @@ bool ArcTree::can_be(const Interval& s) const {
       return false;
     }
   }
+  // A gap in the reach that is rolled over for sure excludes the arc; its ends may be touched.
   if (!confined_ || passed.hi <= passed.lo) return true;
   return std::none_of(gaps_.begin(), gaps_.end(), [&](const Interval& gap) {
     const Interval inner{gap.lo + grain, gap.hi - grain};
@@ -87,13 +101,17 @@ bool ArcTree::can_be(const Interval& s) const {
   });
 }
 
+/// What holds for every first contact in s: a disc about the arc's middle, and a range of Theta with pivots of
+/// corners.
 ArcAt ArcTree::look(const Interval& s, std::size_t instant) const {
   Interval arc = moved(s, instant);
   const Boundary boundary = part_.part.boundary();
   if (!boundary.closed) arc = {std::max(arc.lo, 0.0), std::min(arc.hi, boundary.perimeter)};
   ArcAt at;
   at.middle = part_.part.point(arc.middle());
+  // |p'| = 1: no place of the arc is further from its middle, along the boundary or straight.
   at.radius = 0.5 * arc.width() + kDiscGrain * boundary.perimeter;
+  // On short arcs the exact range, spiral by spiral; on long ones bounds by a table, in constant time.
   const bool is_short = arc.width() * static_cast<double>(kCells) <= kFewCells * boundary.perimeter;
   const Interval angles = is_short ? angles_over(part_.part.turning(), arc) : part_.range.over(arc.lo, arc.hi);
   at.angle = angles.middle();
@@ -101,6 +119,7 @@ ArcAt ArcTree::look(const Interval& s, std::size_t instant) const {
   return at;
 }
 
+/// Whether the arc is possible is decided once, when it is made.
 std::int32_t ArcTree::add(const Interval& s) {
   Node node;
   node.s = s;
@@ -109,13 +128,15 @@ std::int32_t ArcTree::add(const Interval& s) {
   return static_cast<std::int32_t>(nodes_.size()) - 1;
 }
 
+/// Computed on first demand, instant after instant: an arc that is excluded early needs few of them.
 const ArcAt& ArcTree::at(std::int32_t index, std::size_t instant) {
   Node& node = nodes_[static_cast<std::size_t>(index)];
   while (node.at.size() <= instant) node.at.push_back(look(node.s, node.at.size()));
   return node.at[instant];
 }
 
-/// What moves the pin on the part, over what it is off by. At a corner arcs only have to be short.
+/// The size, of the only finger beside wheels: how far an arc leaves the pin open on the part, over how far off the pin
+/// can be anyway.
 double ArcTree::size_by_levers(std::int32_t node, double leaf) {
   const double width = arc(node).width();
   double size = 0;
@@ -123,7 +144,10 @@ double ArcTree::size_by_levers(std::int32_t node, double leaf) {
     const ArcAt& here = at(node, t);
     const Slack& slack = slacks_[t];
     for (const Lever& lever : levers_[t]) {
+      // How far the pin may be off on the part, by the measurements alone.
       const double off = slack.place + lever.slack + lever.arm * slack.angle;
+      // The heading follows from the tangent: half_turn moves the pin by arm * half_turn. At a corner half_turn does
+      // not shrink with the arc, so that the arc's width against `travel` ends the halving.
       const double turned = std::min(lever.arm * here.half_turn / (leaf * off), width / (leaf * slack.travel));
       size = std::max({size, turned, 0.5 * width / (leaf * off)});
     }
@@ -131,6 +155,8 @@ double ArcTree::size_by_levers(std::int32_t node, double leaf) {
   return size;
 }
 
+/// The largest of: range of tangents over the angle's slack, radius of the disc over the place's slack; at all
+/// instants. Above 1 the arc is to be halved.
 double ArcTree::size(std::int32_t node, double leaf) {
   if (!levers_.empty()) return size_by_levers(node, leaf);
   const double width = arc(node).width();
@@ -138,7 +164,8 @@ double ArcTree::size(std::int32_t node, double leaf) {
   for (std::size_t t = 0; t < travelled_.size(); ++t) {
     const ArcAt& here = at(node, t);
     const Slack& slack = slacks_[t];
-    // What the travelled length itself may be off by does not get smaller: nor does a corner's turn.
+    // At a corner the range of tangents does not shrink with the arc. An arc shorter than `travel` is short enough, as
+    // the contact is not known better.
     const double least = leaf * slack.travel;
     const double turn = std::min(here.half_turn / (leaf * slack.angle), width / least);
     const double place = has_place_ ? 0.5 * width / (leaf * slack.place) : 0;
@@ -147,11 +174,13 @@ double ArcTree::size(std::int32_t node, double leaf) {
   return size;
 }
 
+/// The halves are made on first demand and shared by all boxes that ask for them.
 std::pair<std::int32_t, std::int32_t> ArcTree::halves(std::int32_t index) {
   {
     const Node& node = nodes_[static_cast<std::size_t>(index)];
     if (node.left >= 0) return {node.left, node.right};
     const double middle = node.s.middle();
+    // No number lies between the ends.
     if (!(middle > node.s.lo && middle < node.s.hi)) return {index, index};
   }
   const Interval whole = arc(index);

@@ -30,6 +30,7 @@ constexpr double kSameArc = 1e-12;       // arcs that share an end, of the perim
 
 using touch::HeadingArc;
 
+/// The head of k's set in a union-find forest; halves the paths on the way.
 std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
   while (parent[k] != k) k = parent[k] = parent[parent[k]];
   return k;
@@ -37,10 +38,13 @@ std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
 
 /// Instants of so many in which some finger's measurement is an outlier, but for a chance of kMoreMisses.
 std::size_t most_misses(const HeldRows& rows, std::size_t instants) {
+  // At an instant all measurements are right with (1 - share)^fingers; the number of misses is binomial.
   const double right = std::pow(1 - rows.outlier_share, static_cast<double>(rows.fingers()));
   double probability = std::pow(right, static_cast<double>(instants));
+  // P(more misses than `misses`).
   double beyond = 1 - probability;
   std::size_t misses = 0;
+  // Without outliers right = 1 and beyond = 0: no instant may fail. One instant at least has to fit.
   for (; beyond > kMoreMisses && misses + 1 < instants; ++misses) {
     probability *= static_cast<double>(instants - misses) / static_cast<double>(misses + 1) * (1 - right) / right;
     beyond -= probability;
@@ -50,6 +54,7 @@ std::size_t most_misses(const HeldRows& rows, std::size_t instants) {
 
 }  // namespace
 
+/// Copies what the rows searched with say, so that a test at an instant reads from one place.
 BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
                      const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget)
     : pins_(rows, instants, wheels), most_boxes_(rows.has_noise ? kMostNoisyBoxes : kMostBoxes), budget_(budget) {
@@ -69,6 +74,7 @@ BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vect
   if (fingers() == 1 && pins_.wheels() > 0) add_levers(instants.size());
 }
 
+/// An arm is |C - q|: both are measured, in the world, whatever the first contacts are.
 void BoxSearch::add_levers(std::size_t instants) {
   std::vector<std::vector<Lever>> levers(instants);
   for (std::size_t t = 0; t < instants; ++t) {
@@ -85,17 +91,21 @@ HeadingArc BoxSearch::headings(const Box& box, std::size_t t) {
   HeadingArc heading;
   for (std::size_t k = 0; k < trees_.size(); ++k) {
     const ArcAt& arc = trees_[k].at(box[k], t);
+    // phi = tau - Theta: the heading that turns the part's tangent into the measured one.
     const HeadingArc own{nearest_angle(instant.tangent[k] - arc.angle),
                          arc.half_turn + trees_[k].slack(t).angle + kHeadingGrain};
+    // `common` holds all that both have in common, so that no heading that suits both is lost.
     heading = common(heading, own);
     if (heading.is_empty()) return heading;
   }
+  // Chords: a pose leaves the vector between two contacts its length and turns it by phi.
   for (std::size_t i = 0; i < trees_.size(); ++i) {
     if (!has_place_[i]) continue;
     const ArcAt& one = trees_[i].at(box[i], t);
     for (std::size_t j = i + 1; j < trees_.size(); ++j) {
       if (!has_place_[j]) continue;
       const ArcAt& other = trees_[j].at(box[j], t);
+      // Both ends of the chord may be anywhere in their discs, and be measured wrong.
       const double slack = one.radius + other.radius + trees_[i].slack(t).place + trees_[j].slack(t).place;
       heading =
           common(heading, touch::headings_between(other.middle - one.middle, instant.at[j] - instant.at[i], slack));
@@ -105,6 +115,7 @@ HeadingArc BoxSearch::headings(const Box& box, std::size_t t) {
   return heading;
 }
 
+/// The heading is unwrapped as the tangents are: an encoder counts turns.
 HeldFrom BoxSearch::from(const Box& box, std::size_t finger, std::size_t t) {
   const ArcAt& arc = trees_[finger].at(box[finger], t);
   const double place = trees_[finger].slack(t).place;
@@ -116,10 +127,13 @@ bool BoxSearch::may_touch(const Box& box, std::size_t t, const HeadingArc& headi
   for (std::size_t wheel = 0; wheel < pins_.wheels(); ++wheel) {
     bool is_first = true;
     for (std::size_t finger = 0; finger < trees_.size(); ++finger) {
+      // Without x and y the pin can't be seen from this finger.
       if (!has_place_[finger]) continue;
       PinFound found;
+      // One view is enough for the encoder's zero: more would narrow it, and cost all places within reach.
       const bool asks_spin = is_first && pins_.has_spin(wheel);
       if (!pins_.may_touch(wheel, t, from(box, finger, t), heading, asks_spin ? &found : nullptr)) return false;
+      // What the zero can be at this instant; over all instants it must be one and the same.
       if (asks_spin && !found.any_spin) spins[wheel].keep(found.spins);
       if (spins[wheel].is_empty()) return false;
       is_first = false;
@@ -129,6 +143,7 @@ bool BoxSearch::may_touch(const Box& box, std::size_t t, const HeadingArc& headi
 }
 
 std::vector<Interval> BoxSearch::wheel_arcs(const Box& box, std::size_t wheel) {
+  // Row 0 comes first in the order of instants.
   const HeadingArc heading = headings(box, 0);
   std::vector<Interval> arcs;
   if (heading.is_empty()) return arcs;
@@ -141,15 +156,18 @@ std::vector<Interval> BoxSearch::wheel_arcs(const Box& box, std::size_t wheel) {
   return arcs;
 }
 
+/// Normals and chords first: they are cheap, and leave fewer headings to look at wheels with.
 bool BoxSearch::may_fit(const Box& box, std::size_t t, std::vector<SpinSet>& spins) {
   ++comparisons_;
   const HeadingArc heading = headings(box, t);
   return !heading.is_empty() && may_touch(box, t, heading, spins);
 }
 
+/// Ends at the first instant that can't fit, or with outliers at one more than may fail.
 bool BoxSearch::may_fit(const Box& box) {
   beat();
   for (std::size_t k = 0; k < trees_.size(); ++k) {
+    // By reach and by an open boundary's ends: no pose is needed.
     if (!trees_[k].is_possible(box[k])) return false;
   }
   std::vector<SpinSet> spins;
@@ -167,17 +185,21 @@ Boxes BoxSearch::search(double leaf) {
   return search({all}, leaf);
 }
 
+/// Each turn of the outer loop halves every box that is left once. At its start `from` and `found.fit` together hold
+/// all first contacts that fit.
 Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
   Boxes found;
   while (!from.empty()) {
     std::vector<Box> next;
     for (std::size_t b = 0; b < from.size(); ++b) {
       const Box& box = from[b];
+      // Nothing is lost: the rest of this generation and the part of the next that is made are handed back.
       if (comparisons() >= budget_) {
         found.undecided.insert(found.undecided.end(), from.begin() + static_cast<std::ptrdiff_t>(b), from.end());
         found.undecided.insert(found.undecided.end(), next.begin(), next.end());
         return found;
       }
+      // The arc that is largest, in leaves, is halved.
       std::size_t widest = 0;
       double most = 0;
       for (std::size_t k = 0; k < trees_.size(); ++k) {
@@ -187,6 +209,7 @@ Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
           widest = k;
         }
       }
+      // Equal: all arcs are leaves, or the widest has no number between its ends.
       const auto [left, right] =
           most <= 1 ? std::make_pair(box[widest], box[widest]) : trees_[widest].halves(box[widest]);
       if (left == right) {
@@ -199,6 +222,7 @@ Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
         if (may_fit(child)) next.push_back(child);
       }
     }
+    // No room for another generation: these boxes are coarser than leaves, and hold all that fits.
     if (found.fit.size() + next.size() > most_boxes_) {
       found.fit.insert(found.fit.end(), next.begin(), next.end());
       return found;
@@ -208,6 +232,7 @@ Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
   return found;
 }
 
+/// A sweep along the first finger's arcs, with union-find: n log n, and the pairs whose first arcs overlap.
 std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>& boxes, const Boundary& boundary) {
   const double grain = kSameArc * boundary.perimeter;
   std::vector<std::pair<double, std::size_t>> order;  // by the first finger's arcs
@@ -215,6 +240,7 @@ std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>&
   std::sort(order.begin(), order.end());
   std::vector<std::size_t> parent(boxes.size());
   for (std::size_t b = 0; b < boxes.size(); ++b) parent[b] = b;
+  // Arcs that share an end touch; rounding must not part them.
   const auto touching = [&](const Box& one, const Box& other) {
     for (std::size_t k = 0; k < search.fingers(); ++k) {
       const Interval& a = search.tree(k).arc(one[k]);
@@ -230,9 +256,11 @@ std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>&
   for (std::size_t i = 0; i < order.size(); ++i) {
     beat();
     const double hi = search.tree(0).arc(boxes[order[i].second][0]).hi + grain;
+    // Only arcs that start before this one ends can meet it.
     for (std::size_t j = i + 1; j < order.size() && order[j].first <= hi; ++j) {
       join_with(order[i].second, order[j].second);
     }
+    // Of a closed boundary an arc that ends at P meets those that start at 0.
     if (!boundary.closed || hi < boundary.perimeter) continue;
     for (std::size_t j = 0; j < order.size() && order[j].first <= hi - boundary.perimeter; ++j) {
       join_with(order[i].second, order[j].second);
@@ -241,6 +269,7 @@ std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>&
   std::vector<std::vector<Box>> sets;
   std::vector<std::size_t> set_of(boxes.size(), boxes.size());
   for (std::size_t b = 0; b < boxes.size(); ++b) {
+    // Sets come in the order of their first boxes.
     const std::size_t head = find(parent, b);
     if (set_of[head] == boxes.size()) {
       set_of[head] = sets.size();
@@ -255,6 +284,7 @@ namespace {
 
 /// The shortest arc that holds all of these.
 Interval hull_of(std::vector<Interval> arcs, const Boundary& boundary) {
+  // Nothing is known: anywhere.
   if (arcs.empty()) return boundary.full_arc();
   std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
   if (!boundary.closed) {
@@ -263,6 +293,7 @@ Interval hull_of(std::vector<Interval> arcs, const Boundary& boundary) {
     return {arcs.front().lo, hi};
   }
   // All but the widest gap.
+  // `reached`: how far the arcs before this one go. The hull starts behind the widest gap and ends before it.
   double reached = arcs.front().hi;
   double widest = 0, start = arcs.front().lo, end = 0;
   for (const Interval& arc : arcs) {
@@ -273,6 +304,7 @@ Interval hull_of(std::vector<Interval> arcs, const Boundary& boundary) {
     }
     reached = std::max(reached, arc.hi);
   }
+  // The gap across s = 0.
   const double across = arcs.front().lo + boundary.perimeter - reached;
   if (across >= widest) {
     start = arcs.front().lo;

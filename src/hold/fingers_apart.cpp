@@ -48,6 +48,7 @@ struct FingersApart::Body {
   double size = 0;
 };
 
+/// Rows are spread evenly, the first and the last among them. A row that is not looked at excludes nothing.
 FingersApart::FingersApart(const HoldProblem& problem, const HeldRows& rows)
     : problem_(problem), has_noise_(rows.has_noise) {
   const std::size_t last = rows.rows.size() - 1;
@@ -63,10 +64,13 @@ FingersApart::FingersApart(const HoldProblem& problem, const HeldRows& rows)
   if (problem.noise) radius_slack_ = kRefusedSigmas * std::numbers::sqrt2 * problem.noise->radius;
 }
 
+/// The finger with its contact in the middle of the arc at this row. `moved` bounds the way of any of its points
+/// while the contact goes over the arc.
 FingersApart::Body FingersApart::body_at(std::size_t row, std::size_t finger, const Interval& first_contact) const {
   const HeldContact& contact = rows_[row].contacts[finger];
   const double off = travel_[row][finger];
   const double middle = first_contact.middle() + contact.travelled;
+  // The arc of first contacts, and what the travelled length may be off by.
   const double about = together(0.5 * first_contact.width(), off);
   const Interval arc{middle - about, middle + about};
   const Boundary boundary = problem_.part.boundary();
@@ -74,14 +78,17 @@ FingersApart::Body FingersApart::body_at(std::size_t row, std::size_t finger, co
   const Interval angles = angles_over(problem_.part.turning(), {on(arc.lo), on(arc.hi)});
   Body body;
   body.finger = &finger_of_log(problem_, finger);
+  // From the world to the part's frame: Theta - tau.
   const double turned = angles.middle() - contact.tangent;
   body.contact = problem_.part.point(on(arc.middle()));
+  // The lever leads from the finger's centre to the contact.
   const Vec2 centre = body.contact - Pose{0, 0, turned}.turned(contact.lever);
   body.pose = {centre.x(), centre.y(), contact.orientation + turned};
   // How an outline is turned is only known as well as the contact on it.
   const double by_outline = body.finger->outline() == nullptr ? 0 : contact.finger_curvature * off;
   body.turn = 0.5 * angles.width() + by_outline;
   body.size = size_[finger];
+  // The contact moves along the arc; any other point besides by its distance from it times the turn.
   body.moved = about + body.turn * body.size;
   return body;
 }
@@ -93,7 +100,9 @@ double FingersApart::together(double one, double other) const {
 
 /// At least, from anywhere on the arcs. A jaw's line turns about its contact, and passes the other body that far away.
 double FingersApart::depth(const Body& one, const Body& other) const {
+  // With both contacts in the middles of their arcs.
   const double deep = depth_of_overlap(*one.finger, one.pose, *other.finger, other.pose, 0);
+  // A jaw has no ends: how far its line moves grows with the distance from its contact to the other body.
   const auto by_jaw = [&](const Body& jaw, const Body& body) {
     if (!jaw.finger->is_jaw()) return 0.0;
     return jaw.turn * ((body.contact - jaw.contact).norm() + 2 * body.size + body.moved + jaw.moved);
@@ -101,6 +110,7 @@ double FingersApart::depth(const Body& one, const Body& other) const {
   return deep - together(one.moved, other.moved) - by_jaw(one, other) - by_jaw(other, one) - radius_slack_;
 }
 
+/// One row and one pair that overlap everywhere on the arcs are enough.
 bool FingersApart::must_overlap(const std::vector<Interval>& first_contacts) const {
   if (problem_.may_overlap) return false;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -124,6 +134,7 @@ struct Crossing {
   double depth = 0;
 };
 
+/// Of two logs with x and y, in the world: the part plays no role. `slack`: a depth that counts as apart.
 Crossing crossing_of(const Log& a, const Log& b, const Finger& one, const Finger& other, double slack) {
   Crossing found;
   const FingerRows &of_a = a.fingers.front(), &of_b = b.fingers.front();
@@ -139,12 +150,14 @@ Crossing crossing_of(const Log& a, const Log& b, const Finger& one, const Finger
   return found;
 }
 
+/// How deep two fingers may seem by x, y and radii, length.
 double slack_of_centres(const HoldProblem& problem) {
   if (!problem.noise) return kApartRounding * problem.part.perimeter();
   // Of the deepest of all rows, and of both centres and radii.
   return kRefusedSigmas * std::numbers::sqrt2 * (problem.noise->position + problem.noise->radius);
 }
 
+/// "b.csv:17"; of simulated rows "b.csv, row 17".
 std::string place_of(const Log& log, std::size_t row) {
   const std::vector<std::size_t>& lines = log.fingers.front().line;
   return row < lines.size() ? fmt::format("{}:{}", log.name, lines[row]) : fmt::format("{}, row {}", log.name, row + 1);
@@ -159,6 +172,7 @@ void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
       if (logs[a].fingers.front().x.empty() || logs[b].fingers.front().x.empty()) continue;
       const Crossing found = crossing_of(logs[a], logs[b], finger_of_log(problem, a), finger_of_log(problem, b),
                                          slack_of_centres(problem));
+      // Outliers among x and y are no refusal.
       const double allowed = problem.robust ? kStrayRows * static_cast<double>(logs[a].rows()) : 0;
       if (static_cast<double>(found.rows) <= allowed) continue;
       throw InputError(fmt::format(

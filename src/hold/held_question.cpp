@@ -14,12 +14,12 @@
 //   box, set        arcs of first contacts, one for each finger; boxes that hang together
 //   witness         first contacts and poses with every residual within its tolerance
 // Follows docs/two_fingers.md, "Three and more fingers".
-// Idea: a problem with its rows and the boxes of its search; without noise a set is told only with a witness in it.
-// Sets without are cut smaller, until they are gone or as small as boxes get.
+// Idea: a problem with its rows and the boxes of its search; without noise a set is a placement only with a witness in
+// it. Sets without are cut smaller, until they are gone or as small as boxes get.
 namespace rollfix::hold {
 namespace {
 
-/// In the order of time.
+/// These rows alone, in the order of time.
 HeldRows chosen_rows(const HeldRows& rows, std::vector<std::size_t> chosen) {
   std::sort(chosen.begin(), chosen.end());
   HeldRows result = rows;
@@ -31,12 +31,14 @@ HeldRows chosen_rows(const HeldRows& rows, std::vector<std::size_t> chosen) {
 constexpr int kHoldRefinements = 4;  // of sets without a witness, ...
 constexpr double kHoldFiner = 0.25;  // ... each this much finer than the one before
 
+/// Of each finger its arc of first contacts.
 std::vector<Interval> arcs_of(HeldQuestion& question, const Box& box) {
   std::vector<Interval> arcs;
   for (std::size_t k = 0; k < question.search().fingers(); ++k) arcs.push_back(question.search().tree(k).arc(box[k]));
   return arcs;
 }
 
+/// First contacts as arcs of length 0.
 std::vector<Interval> places_of(const HeldQuestion& question, const HeldState& state) {
   std::vector<Interval> places;
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(question.rows().fingers()); ++k) {
@@ -47,6 +49,7 @@ std::vector<Interval> places_of(const HeldQuestion& question, const HeldState& s
 
 /// The set with those boxes alone in which the fingers can be apart.
 FoundSet apart_in(HeldQuestion& question, const FoundSet& found, const FingersApart* apart) {
+  // No test is asked for: all boxes stay.
   if (apart == nullptr) return found;
   FoundSet left{{}, found.set};
   std::copy_if(found.boxes.begin(), found.boxes.end(), std::back_inserter(left.boxes),
@@ -54,10 +57,14 @@ FoundSet apart_in(HeldQuestion& question, const FoundSet& found, const FingersAp
   return left;
 }
 
+/// First contacts in the set, with poses, that fit at all instants; none: not found from up to kStarts of its boxes,
+/// which proves nothing.
 std::optional<HeldState> witness_in(HeldQuestion& question, HoldFit& fit, const FoundSet& found,
                                     const FingersApart* apart) {
   const std::size_t looks = std::min(found.boxes.size(), kStarts);
   for (std::size_t look = 0; look < looks; ++look) {
+    // A set fits if its largest residual, over its tolerance, is at most 1: that is made small, not the sum of
+    // squares.
     HeldState state = fit.best_worst(fit.at(middle_of_box(question.search(), found, look, looks)));
     if (fit.worst(state) > 1) continue;
     // A fit may have ended in another set, which has its own.
@@ -69,6 +76,7 @@ std::optional<HeldState> witness_in(HeldQuestion& question, HoldFit& fit, const 
 
 }  // namespace
 
+/// One path for each wheel, in their order.
 WheelPaths paths_of(const HoldProblem& problem) {
   WheelPaths paths;
   for (const PassiveWheel& wheel : problem.wheels) {
@@ -82,6 +90,7 @@ WheelPaths paths_of(const HoldProblem& problem) {
   return paths;
 }
 
+/// Lengths of u and of x and y are brought into the part's unit; fingers' radii are in it already.
 std::vector<Log> logs_of(const HoldProblem& problem) {
   std::vector<Log> logs;
   for (std::size_t k = 0; k < problem.logs.size(); ++k) {
@@ -93,9 +102,11 @@ std::vector<Log> logs_of(const HoldProblem& problem) {
   return aligned(std::move(logs));
 }
 
+/// `reaches_` owns them, by radius; a map moves none of its elements, so that pointers to them stay.
 ReachOfFingers::ReachOfFingers(const HoldProblem& problem) {
   for (std::size_t k = 0; k < problem.logs.size(); ++k) {
     const Finger& finger = finger_of_log(problem, k);
+    // Other fingers count as able to touch anywhere, which excludes nothing.
     const bool is_known = finger.is_disk() || (finger.is_jaw() && !problem.wheels.empty());
     if (!is_known) {
       each.push_back(nullptr);
@@ -111,6 +122,7 @@ ReachOfFingers::ReachOfFingers(const HoldProblem& problem) {
   }
 }
 
+/// Members are made in the order of their declaration: the search reads the rows and reaches made before it.
 HeldQuestion::HeldQuestion(const HoldProblem& problem, HeldRows rows, const std::vector<std::size_t>& instants,
                            const WheelPaths& wheels)
     : wheels_(wheels.size()),
@@ -120,6 +132,7 @@ HeldQuestion::HeldQuestion(const HoldProblem& problem, HeldRows rows, const std:
       reach_(problem),
       search_(part_, rows_, instants, reach_.each, wheels, problem.budget.value_or(kHoldBudget)) {}
 
+/// Each set with the extents of all first contacts in it.
 std::vector<FoundSet> HeldQuestion::sets(const std::vector<Box>& boxes) {
   const Boundary boundary = part().boundary();
   std::vector<FoundSet> found;
@@ -136,6 +149,8 @@ std::vector<FoundSet> HeldQuestion::sets(const std::vector<Box>& boxes) {
   return found;
 }
 
+/// Each round asks every set that is left for a witness. At its start `boxes.fit`, the sets in `result`, and
+/// `undecided` hold all first contacts that fit.
 Witnessed witnessed(HeldQuestion& question, HoldFit& fit, Boxes boxes, const FingersApart* apart) {
   double leaf = BoxSearch::kLeaf;
   Witnessed result{{}, {}, std::move(boxes.undecided)};
@@ -144,17 +159,21 @@ Witnessed witnessed(HeldQuestion& question, HoldFit& fit, Boxes boxes, const Fin
     std::vector<Box> left;
     for (const FoundSet& found : question.sets(boxes.fit)) {
       const FoundSet possible = apart_in(question, found, apart);
+      // In every box some fingers enter each other, wherever in it they started.
       const bool overlaps = possible.boxes.empty();
       std::optional<HeldState> state =
+          // A witness of a set that must overlap only says that the set is to be counted, as one that else fits.
           overlaps ? witness_in(question, fit, found, nullptr) : witness_in(question, fit, possible, apart);
       if (state) {
         result.sets.push_back({found.set, std::move(*state), overlaps});
+        // Smaller boxes may exclude it, or lead to a witness.
       } else if (!overlaps) {
         left.insert(left.end(), found.boxes.begin(), found.boxes.end());
       }
     }
     boxes.fit = std::move(left);
     if (round == kHoldRefinements || boxes.fit.empty()) break;
+    // Children of boxes that may fit are tested anew; those that fail are gone for sure.
     leaf *= kHoldFiner;
     boxes = question.search().search(std::move(boxes.fit), leaf);
     undecided.insert(undecided.end(), boxes.undecided.begin(), boxes.undecided.end());

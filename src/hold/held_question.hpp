@@ -26,10 +26,10 @@ std::vector<Log> logs_of(const HoldProblem& problem);
 class ReachOfFingers {
  public:
   explicit ReachOfFingers(const HoldProblem& problem);
-  std::vector<const Reach*> each;
+  std::vector<const Reach*> each;  // of each finger; owned by this
 
  private:
-  std::map<double, std::unique_ptr<Reach>> reaches_;
+  std::map<double, std::unique_ptr<Reach>> reaches_;  // by radius, of a jaw 0
 };
 
 /// A problem with what is searched in: rows, of them those that are searched with, and boxes of first contacts.
@@ -49,9 +49,9 @@ class HeldQuestion {
   std::vector<FoundSet> sets(const std::vector<Box>& boxes);
 
  private:
-  std::size_t wheels_;
-  HeldRows rows_;
-  HeldRows searched_;
+  std::size_t wheels_;  // how many
+  HeldRows rows_;       // all rows of the logs
+  HeldRows searched_;   // those searched with
   HeldPart part_;
   ReachOfFingers reach_;
   BoxSearch search_;
@@ -59,20 +59,21 @@ class HeldQuestion {
 
 /// A set of first contacts, with some in it that fit.
 struct WitnessedSet {
-  HeldSet set;
-  HeldState state;
+  HeldSet set;            // extents of its boxes
+  HeldState state;        // the witness: every residual within its tolerance
   bool overlaps = false;  // all that fits in it has fingers in each other
 };
 
 /// Sets in which something fits, and boxes of which that is not known.
 struct Witnessed {
-  std::vector<WitnessedSet> sets;
-  std::vector<Box> doubtful;   // as small as they get, with nothing found in them that fits
-  std::vector<Box> undecided;  // where the budget ran out
+  std::vector<WitnessedSet> sets;  // those that overlap included
+  std::vector<Box> doubtful;       // as small as they get, with nothing found in them that fits
+  std::vector<Box> undecided;      // where the budget ran out
 };
 
 /// Without noise: in every set first contacts that fit at all instants that are searched with; sets without are cut
-/// smaller, until they are gone or told. `fit`: of those instants. `apart`: null where fingers may be in each other.
+/// smaller, until nothing of them is left or they are reported as doubtful. `fit`: of those instants. `apart`: null
+/// where fingers may be in each other.
 Witnessed witnessed(HeldQuestion& question, HoldFit& fit, Boxes boxes, const FingersApart* apart = nullptr);
 
 }  // namespace rollfix::hold

@@ -25,7 +25,8 @@
 namespace rollfix::hold {
 namespace {
 
-// Without noise centres and lengths are known to this share of the perimeter at best: an outline's own accuracy.
+// Centres and lengths are known to this share of the perimeter at best, an outline's own accuracy, and angles to so
+// many radians. No error that residuals are divided by is 0.
 constexpr double kLeastHeldPlace = 1e-6;
 constexpr double kLeastHeldTravel = 1e-9;
 constexpr double kLeastHeldAngle = 1e-9;  // radians
@@ -33,10 +34,13 @@ constexpr double kLeastHeldAngle = 1e-9;  // radians
 constexpr double kAlikeSigmas = 3;
 constexpr std::size_t kRobustInstants = 15;  // in place of kHoldInstants: of some a measurement may be an outlier
 
+/// The radius's error as one of all lengths, per length: a disk's lengths are r times angles. 0 of other fingers.
 double radius_share(const Noise& noise, const Finger& finger) {
   return finger.is_disk() ? noise.radius / finger.disk()->radius : 0;
 }
 
+/// Standard deviations of one finger; those of travel and of angle are above 0. `noise`: with the outline's own
+/// accuracy in `part`. x and y are evidence only if the noise has a position.
 HeldErrors errors_with(const Noise& noise, const Finger& finger, bool has_centre, double perimeter) {
   HeldErrors errors;
   errors.has_place = has_centre && noise.position > 0;
@@ -47,6 +51,7 @@ HeldErrors errors_with(const Noise& noise, const Finger& finger, bool has_centre
   return errors;
 }
 
+/// Tolerances of one finger, without noise: by the digits of its log, or as the problem states them.
 HeldErrors errors_by_digits(const HoldProblem& problem, const Log& log, const Finger& finger) {
   const FingerRows& rows = log.fingers.front();
   const double perimeter = problem.part.perimeter();
@@ -61,19 +66,23 @@ HeldErrors errors_by_digits(const HoldProblem& problem, const Log& log, const Fi
     errors.place =
         std::numbers::sqrt2 * rounding_of_column(coordinates) + rounding.length + kLeastHeldPlace * perimeter;
   }
+  // A stated tolerance replaces the digits'; a length of 0 in it leaves theirs.
   if (!problem.tolerance) return errors;
   errors.angle = std::max(problem.tolerance->angle, kLeastHeldAngle);
   if (problem.tolerance->length > 0) errors.place = problem.tolerance->length;
   return errors;
 }
 
+/// Appends one finger's contact to each row.
 void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
   const FingerRows& rows = log.fingers.front();
   const std::vector<Contact> contacts = contacts_of(rows, finger);
   for (std::size_t row = 0; row < contacts.size(); ++row) {
     HeldContact contact;
     contact.travelled = reading_between(finger, contacts.front(), contacts[row]).length[0];
+    // The normal u + psi points into the part, a quarter turn to the left of the tangent.
     contact.tangent = facing(finger, contacts[row]) - 0.5 * std::numbers::pi;
+    // The centre of a finger that touches at the origin, taken back: from the centre to the contact.
     contact.lever = -centre_of(finger, Vec2::Zero(), contacts[row]);
     if (!rows.x.empty()) contact.at = Vec2(rows.x[row], rows.y[row]) + contact.lever;
     contact.orientation = contacts[row].psi;
@@ -82,6 +91,7 @@ void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
   }
 }
 
+/// What a wheel is and how far its measurements may be off: standard deviations with noise, else tolerances.
 HeldWheel wheel_of(const HoldProblem& problem, std::size_t number, const Log& log) {
   const PassiveWheel& given = problem.wheels[number];
   const FingerRows& rows = log.fingers.front();
@@ -92,11 +102,13 @@ HeldWheel wheel_of(const HoldProblem& problem, std::size_t number, const Log& lo
     wheel.place = problem.noise->position;
     wheel.radius = problem.noise->radius;
     if (given.log.has_encoder()) wheel.spin = std::max(problem.noise->angle, kLeastHeldAngle);
+    // A squeeze's error may last over all rows: each is weighed with n SD^2. docs/rig.md, "Squeezed".
     wheel.line_alike = static_cast<double>(rows.x.size());
     return wheel;
   }
   std::vector<double> coordinates = rows.x;
   coordinates.insert(coordinates.end(), rows.y.begin(), rows.y.end());
+  // x and y are each off by half a digit at most: sqrt(2) of that in distance.
   wheel.place = std::numbers::sqrt2 * rounding_of_column(coordinates) + kLeastHeldPlace * problem.part.perimeter();
   double angle = rows.angle_rounding;
   if (problem.tolerance) {
@@ -108,6 +120,7 @@ HeldWheel wheel_of(const HoldProblem& problem, std::size_t number, const Log& lo
   return wheel;
 }
 
+/// Appends one wheel's pin to each row; an encoder's angles are unwrapped.
 void add_pins(const Log& log, const HeldWheel& wheel, HeldRows& held) {
   const FingerRows& rows = log.fingers.front();
   std::vector<Contact> turned;
@@ -119,6 +132,7 @@ void add_pins(const Log& log, const HeldWheel& wheel, HeldRows& held) {
 
 /// For each row of a finger: how many rows are as far as it is, as far as noise can tell.
 void count_alike(std::size_t finger, HeldRows& held) {
+  // By sorted lengths in n log n. A row counts itself, so that the number is at least 1.
   const double reach = kAlikeSigmas * held.errors[finger].travel;
   std::vector<double> lengths;
   for (const HeldRow& row : held.rows) lengths.push_back(row.contacts[finger].travelled);
@@ -132,8 +146,9 @@ void count_alike(std::size_t finger, HeldRows& held) {
 }
 
 constexpr double kMedianVariance = 0.5 * std::numbers::pi;  // of a median, in those of a mean
-constexpr std::size_t kMostMeans = 512;
+constexpr std::size_t kMostMeans = 512;                     // rows that fits take, however long the log is
 
+/// Of an even number of values the mean of the middle two. REQUIRES at least one value.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -141,7 +156,8 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// What an outlier does not move: each number of a finger's rows is their median, but for how the contact lies on it.
+/// The same by medians, which an outlier does not move. The curvature at the contact and the rows at one corner stay
+/// means: `mean`.
 HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, std::size_t finger,
                       HeldContact mean) {
   const auto of = [&](auto number) {
@@ -159,9 +175,10 @@ HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::s
   return mean;
 }
 
-/// The mean of the rows from one to before another.
+/// The mean of the rows from one to before another. `robust`: of fingers their median.
 HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, bool robust) {
   HeldRow mean = rows[from];
+  // A row alone stays as it is, to the last bit.
   if (to - from == 1) return mean;
   const auto count = static_cast<double>(to - from);
   mean.time = 0;
@@ -188,20 +205,24 @@ HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t 
     }
     mean.pins[pin] = sum;
   }
+  // A median of n rows is as good as a mean of n / (pi / 2) of them.
   mean.weight = robust ? count / kMedianVariance : count;
   return mean;
 }
 
 /// A number that was measured, and its standard deviation.
 struct Measured {
-  std::function<double&(HeldRow&)> of;
-  double sd = 0;
+  std::function<double&(HeldRow&)> of;  // where a row has it
+  double sd = 0;                        // of one row
 };
 
+/// All numbers of a row whose course tells whether the motion is smooth: of each finger L, tau and q, of each wheel
+/// its pin and its encoder.
 std::vector<Measured> measured_numbers(const HeldRows& rows) {
   std::vector<Measured> all;
   for (std::size_t k = 0; k < rows.fingers(); ++k) {
     const HeldErrors& errors = rows.errors[k];
+    // The largest curvature makes the largest error, so that no motion seems uneven by noise alone.
     double curvature = 0;
     for (const HeldRow& row : rows.rows) curvature = std::max(curvature, row.contacts[k].finger_curvature);
     const double turn = std::hypot(errors.angle, curvature * errors.travel);
@@ -221,6 +242,7 @@ std::vector<Measured> measured_numbers(const HeldRows& rows) {
   return all;
 }
 
+/// One number over all rows, with the standard deviation of one of them as a mean.
 belief::Course course_of(std::vector<HeldRow>& rows, const Measured& measured) {
   belief::Course course{{}, measured.sd / std::sqrt(rows.front().weight)};
   for (HeldRow& row : rows) {
@@ -235,6 +257,7 @@ std::vector<HeldRow> means(const HeldRows& rows, std::size_t lots) {
   const std::size_t count = rows.rows.size() - 2;
   std::vector<HeldRow> result;
   for (std::size_t k = 0; k < lots; ++k) {
+    // Rows 1 to n - 2, split at whole shares of their number.
     result.push_back(mean_of(rows.rows, 1 + k * count / lots, 1 + (k + 1) * count / lots, rows.outlier_share > 0));
   }
   return result;
@@ -250,6 +273,7 @@ std::optional<std::vector<HeldRow>> middles_of(std::vector<HeldRow> means, const
   return means;
 }
 
+/// The first and the last row stay themselves: at them the answer says where the contacts and the part are.
 HeldRows between_ends(const HeldRows& rows, std::vector<HeldRow> means) {
   HeldRows result = rows;
   result.rows = std::move(means);
@@ -262,12 +286,15 @@ HeldRows between_ends(const HeldRows& rows, std::vector<HeldRow> means) {
 
 std::vector<Log> aligned(std::vector<Log> logs) {
   Log first = std::move(logs.front());
+  // First the rows that all logs share, then each log cut to these.
   for (std::size_t k = 1; k < logs.size(); ++k) first = one_finger(paired(first, logs[k]), 0);
   std::vector<Log> result{first};
   for (std::size_t k = 1; k < logs.size(); ++k) result.push_back(one_finger(paired(first, logs[k]), 1));
   return result;
 }
 
+/// Rows of logs without times are timed by their number. x and y of a finger without noise of the position only say
+/// where the part is: `reference`, of the first finger that has them.
 HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
   HeldRows held;
   held.has_noise = problem.noise.has_value();
@@ -291,6 +318,7 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
     held.wheels.push_back(wheel_of(problem, k, logs[problem.logs.size() + k]));
     add_pins(logs[problem.logs.size() + k], held.wheels.back(), held);
   }
+  // Where some x and y are evidence they place the part; no other finger's are needed.
   if (held.any_place) held.reference.reset();
   held.outlier_share = problem.robust ? belief::kOutlierShare : 0;
   held.prior = problem.prior;
@@ -298,6 +326,8 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
   return held;
 }
 
+/// Row 0 first. Greedy: the next row is the one farthest from all chosen ones, so that any first few are spread over
+/// the log.
 std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log) {
   std::vector<std::size_t> chosen{0};
   const std::size_t last = log.rows() - 1;
@@ -310,6 +340,7 @@ std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& l
   }
   // The one furthest from those that are chosen comes next.
   while (!others.empty()) {
+    // Rows to the nearest chosen one.
     const auto away = [&](std::size_t row) {
       std::size_t least = last + 1;
       for (const std::size_t one : chosen) least = std::min(least, row > one ? row - one : one - row);
@@ -324,16 +355,20 @@ std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& l
 }
 
 HeldRows averaged(const HeldRows& rows) {
+  // Rows between the first and the last one.
   const std::size_t count = rows.rows.size() - std::min<std::size_t>(2, rows.rows.size());
   const std::vector<Measured> numbers = measured_numbers(rows);
   std::vector<HeldRow> all = rows.rows;
-  // Several fingers leave a row one pose.
+  // Fewer rows leave less to chance where a row beside a wheel fits in several poses (docs/rig.md, "How far it is
+  // right"). Rows of several fingers are fitted in one pose each, and averaged only where they are too many.
   const bool is_smooth =
       rows.fingers() == 1 && rows.outlier_share == 0 && count >= 2 * belief::kFewestMeans &&
       std::ranges::all_of(numbers, [&](const Measured& one) { return belief::is_even(course_of(all, one)); });
+  // So many means, as values in their middles: over a bend the mean is off them.
   const auto middles = [&](std::size_t lots) { return middles_of(means(rows, lots), numbers); };
   if (is_smooth) {
     auto few = belief::fewest_means(std::min(count / 2, kMostMeans - 1), middles);
+    // None: too uneven for any number of means, and rows stay as they are while there is room.
     if (few) return between_ends(rows, *std::move(few));
   }
   return rows.rows.size() <= kMostMeans ? rows : between_ends(rows, means(rows, kMostMeans));

@@ -73,11 +73,13 @@ std::vector<Log> aligned(std::vector<Log> logs);
 /// `logs`: aligned; of the fingers, then of the wheels.
 HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs);
 
-/// Rows to search with, in the order in which they tell most: the first, the last, the middle one, ...
+/// Rows to search with, in the order in which they tell most: the first, the last, the middle one, ... Those of
+/// HoldProblem::at, or kHoldInstants spread evenly.
 std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log);
 
-/// The same with neighbouring rows averaged, but for the first and the last one: of one finger beside wheels that move
-/// smoothly, but for noise, to as few means as say what the rows say, and to no more than 512 anyway.
+/// The same with neighbouring rows averaged, but for the first and the last one. Rows of one finger beside wheels that
+/// follow a smooth motion, but for noise, become as few means as say what the rows say. Others are averaged where there
+/// are more than 512, to 512 means.
 HeldRows averaged(const HeldRows& rows);
 
 }  // namespace rollfix::hold

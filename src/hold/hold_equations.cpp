@@ -24,10 +24,12 @@ namespace {
 
 constexpr double kBlurReach = 5;  // standard deviations: beyond, a corner is not seen
 
+/// The place of an open boundary that is nearest to s; of a closed one s itself, on any lap.
 double on_boundary(const Boundary& boundary, double s) {
   return boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter);
 }
 
+/// Theta and its slope at the place alone: no blur, no range.
 BlurredPlace plain(const Part& part, double s) {
   const Turning turning = part.turning().at(on_boundary(part.boundary(), s));
   BlurredPlace place;
@@ -44,7 +46,8 @@ constexpr double kUneven = 0.2;
 constexpr int kErrorRounds = 6;
 constexpr double kErrorSettled = 1e-6;  // of a chi-square
 
-/// The normal turns over the contact's error otherwise than its curvature there says, and no corner is near.
+/// Within two standard deviations of n the normal turns otherwise than kappa there says, as beside a small rounding.
+/// Corners are not meant: they are blurred.
 bool is_uneven(const Part& part, const BlurredPlace& at, double s, const HeldErrors& errors) {
   if (at.has_corner || errors.angle <= 0 || errors.travel <= 0) return false;
   const double reach = kErrorReach * errors.travel;
@@ -61,11 +64,13 @@ Vec2 point_about(const Part& part, double s) {
   return part.point(at) + (s - at) * Vec2(std::cos(angle), std::sin(angle));
 }
 
+/// docs/two_fingers.md, "The errors". Several corners within reach add up, each as if it were alone.
 BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
   BlurredPlace place = plain(part, s);
   const Boundary boundary = part.boundary();
   const double base = boundary.on_first_lap(s);
   for (const Corner& corner : part.corners()) {
+    // How far s is past the corner, the shorter way round.
     double past = base - corner.s;
     if (boundary.closed && std::abs(past) > 0.5 * boundary.perimeter) {
       past -= std::copysign(boundary.perimeter, past);
@@ -76,11 +81,17 @@ BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
     const double bell = std::exp(-0.5 * d * d) / std::sqrt(2 * std::numbers::pi);
     const double behind = 0.5 * std::erfc(-d / std::numbers::sqrt2);
     const double at = std::max(0.0, corner.turn) * pivot / sd * bell;
+    // Before and behind have the weights Phi(-d) + Phi(d) = 1, to which `at` comes: shares are over this sum.
     const double all = 1 + at;
+    // Of Theta, as a share of J above the side before: 0 before, 1 behind, 1/2 on average at the corner.
     const double mean = (behind + 0.5 * at) / all;
+    // Theta(s) itself holds all of J from the corner on.
     place.angle += corner.turn * (mean - (past >= 0 ? 1 : 0));
+    // d mean / ds, with d phi / dd = -d phi.
     place.bend += corner.turn * (bell - 0.5 * d * at + mean * d * at) / (all * sd);
+    // At the corner Theta is uniform over J: its mean square is J^2 / 3.
     place.variance += corner.turn * corner.turn * ((behind + at / 3) / all - mean * mean);
+    // The mean of 1 - cos a over a uniform on [0, J]; a concave corner has no pivot.
     if (corner.turn > 0) place.pivoting += at / all * (1 - std::sin(corner.turn) / corner.turn);
   }
   return place;
@@ -93,6 +104,8 @@ double turn_from(const Part& part, double s, double m) {
 
 double curvature_at(const Part& part, double s) { return part.turning().curvature(on_boundary(part.boundary(), s)); }
 
+/// The range holds the pivots of all corners on the arc. `angle` is its middle; of a straight or curved stretch
+/// half_turn is half of what it turns.
 BlurredPlace ranged(const Part& part, double s, double reach) {
   BlurredPlace place = plain(part, s);
   const Boundary boundary = part.boundary();
@@ -105,7 +118,8 @@ BlurredPlace ranged(const Part& part, double s, double reach) {
   return place;
 }
 
-/// Of a flat finger, and of one that is larger, as if it were as large as the part.
+/// 1 / kappa_finger, of a disk its radius; no more than that of a circle with the part's perimeter, so that a flat
+/// finger has one.
 double HoldFit::pivot_length(const HeldContact& contact) const {
   return 1 / std::max(contact.finger_curvature, 2 * std::numbers::pi / part_.perimeter());
 }
@@ -113,11 +127,13 @@ double HoldFit::pivot_length(const HeldContact& contact) const {
 HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) const {
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   const HeldErrors& errors = rows_.errors[finger];
+  // A blur of 0 would leave corners without a slope.
   const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
   Sight sight;
   sight.at = rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
   sight.s = s;
   if (errors.has_place) sight.point = point_about(part_, s);
+  // Lawson's weights, of best_worst, times the rows that this one is the mean of.
   const double times = weight(row, finger) * rows_.rows[row].weight;
   if (!rows_.has_noise) {
     if (errors.has_place) sight.information(0, 0) = sight.information(1, 1) = times / (errors.place * errors.place);
@@ -126,27 +142,38 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
     sight.information(2, 2) = times / (angle * angle);
     return sight;
   }
+  // Standard deviation of the normal by the contact's error: part and finger both turn under it.
   const double bend = (sight.at.curvature + contact.finger_curvature) * errors.travel;
   const double angle = errors.angle * errors.angle;
+  // Means like this one that may share one pivot.
   const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
+  // Variance of r without corners, ...
   const double plain = (angle + bend * bend) / rows_.rows[row].weight;
+  // ... and by corners: n rows that share one unknown are off by no more than independent ones with n times the
+  // variance each (Cauchy-Schwarz).
   const double corner = sight.at.variance * alike;
   sight.turn_variance = angle + sight.at.variance;
+  // 1 without corners; 1 / alike where the pivot is all that the angle says.
   sight.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
-  // What an angle that hardly counts would have cost on average, so that no place is likelier because it says less.
+  // An angle of little weight adds little to the square. It is charged what an angle costs on average, so that no place
+  // is likelier because its rows say less.
   sight.blur_size = std::log1p(corner / plain) / alike + 1 - sight.angles;
+  // Else r is linear in n, and n is eliminated by C itself.
   const bool is_bent = is_uneven(part_, sight.at, s, errors);
   sight.error = errors.travel / std::sqrt(rows_.rows[row].weight);
   if (!errors.has_place) {
     if (is_bent) {
+      // Without x and y the orientation alone is left of C.
       sight.bare_information = Eigen::Matrix3d::Zero();
       (*sight.bare_information)(2, 2) = rows_.rows[row].weight / angle;
       sight.bare_log_size = std::log(angle / rows_.rows[row].weight);
     }
+    // det C counts the corner by its share only, C itself in full.
     sight.information(2, 2) = 1 / (plain + corner);
     sight.log_size = std::log(plain) + sight.blur_size;
     return sight;
   }
+  // An error a of the orientation moves q by a J w and turns the tangent by a.
   const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
   Eigen::Matrix3d covariance = angle * lever * lever.transpose();
   // At a corner n moves the contact along the finger, which is not along the part.
@@ -158,6 +185,7 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
     sight.bare_information = bare.inverse();
     sight.bare_log_size = std::log(bare.determinant());
   }
+  // n itself is in no other place: it moves q and L alike, so that on the part the contact stays where it is.
   covariance(2, 2) += bend * bend;
   covariance /= rows_.rows[row].weight;
   sight.log_size = std::log(covariance.determinant()) + sight.blur_size;
@@ -166,6 +194,8 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   return sight;
 }
 
+/// Of all fingers at a row. They depend on the first contacts and stretches alone, so that one set serves all poses
+/// tried.
 std::vector<HoldFit::Sight> HoldFit::sights_at(const HeldState& state, std::size_t row) const {
   std::vector<Sight> sights;
   sights.reserve(fingers());
@@ -173,18 +203,23 @@ std::vector<HoldFit::Sight> HoldFit::sights_at(const HeldState& state, std::size
   return sights;
 }
 
-/// r is linear in n about the n that is most probable beside the other measurements.
+/// Eliminates n where the normal turns unevenly over it: r is taken as linear about the n that is most probable beside
+/// the row's other measurements (errors in variables, docs/two_fingers.md, "How three fingers are searched").
 void HoldFit::bend(Look& look, double finger_curvature) const {
   const Eigen::Matrix3d& bare = *look.bare_information;
+  // What is left of the residuals if the contact is n ahead of s: the sign is opposite to that of the error in
+  // contact_error.
   const auto left = [&](double n) {
     Eigen::Vector3d residual = look.residual;
     residual(2) -= turn_from(part_, look.s, n) + finger_curvature * n;
     return residual;
   };
+  // Minus twice the logarithm of the probability of n beside the row's other measurements, but for a constant.
   const auto cost = [&](double n) {
     const Eigen::Vector3d residual = left(n);
     return residual.dot(bare * residual) + n * n / (look.error * look.error);
   };
+  // Start from the best of seven values: the cost may have several minima where the boundary bends.
   double n = 0;
   double least = cost(0);
   for (const double times : {-3, -2, -1, 1, 2, 3}) {
@@ -193,6 +228,7 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
     least = now;
     n = times * look.error;
   }
+  // Gauss-Newton steps, shortened while they lead uphill. `least` is the cost at n.
   for (int round = 0; round < kErrorRounds; ++round) {
     const double rate = curvature_at(part_, look.s + n) + finger_curvature;
     const double slope = rate * bare.row(2).dot(left(n)) - n / (look.error * look.error);
@@ -208,14 +244,19 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
     n += step;
     if (is_last) break;
   }
+  // The tangent line of the turn at this n, taken back to n = 0: r stays linear in the place.
   const double curvature = curvature_at(part_, look.s + n);
   look.residual(2) -= turn_from(part_, look.s, n) - curvature * n;
   look.by_place(2) = -curvature;
   look.at.curvature = curvature;
+  // C gains turn^2 at its last element; its inverse by Sherman and Morrison's formula.
   const double turn = (curvature + finger_curvature) * look.error;
   const double size = 1 + turn * turn * bare(2, 2);
   look.information = bare - turn * turn / size * bare.col(2) * bare.row(2);
-  // Of all n, whichever it is here: else places would be likelier whose errors can be told to be on a flat side.
+  // det C is by that variance, not by the turn at this n: else places would be likelier at which n comes out on a flat
+  // side.
+  // Variance of the turn over n by Gauss and Hermite's rule of three: n = 0 and +-sqrt(3) sd, with weights 2/3, 1/6,
+  // 1/6.
   const double aside = std::numbers::sqrt3 * look.error;
   const double ahead = turn_from(part_, look.s, aside) + finger_curvature * aside;
   const double back = turn_from(part_, look.s, -aside) - finger_curvature * aside;
@@ -227,10 +268,12 @@ HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t
   return look(sight(place_of(state, row, finger), row, finger), state.placed[row], row, finger);
 }
 
+/// d and r of one contact in this pose, with their derivatives by A, phi and s.
 HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const {
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   Look look{sight};
   const double off = nearest_angle(contact.tangent - placed.heading - sight.at.angle);
+  // Of a range of Theta only what is beyond it is a residual; inside it is 0 and has no slope.
   const double beyond = std::max(0.0, std::abs(off) - sight.at.half_turn);
   look.residual(2) = std::copysign(beyond, off);
   if (beyond > 0 || sight.at.half_turn == 0) {
@@ -240,15 +283,19 @@ HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_
   if (rows_.errors[finger].has_place) {
     const Pose turn{0, 0, placed.heading};
     const Vec2 arm = turn.turned(sight.point - middle_);
+    // d = q - A - R(phi) (p - m).
     look.residual.head<2>() = contact.at - placed.middle - arm;
     look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
     look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
     look.by_place.head<2>() = -turn.turned(Vec2(std::cos(sight.at.side), std::sin(sight.at.side)));
   }
+  // Where the normal turns unevenly over n.
   if (sight.bare_information) bend(look, contact.finger_curvature);
   return look;
 }
 
+/// The normal equations of one row, P first. `with_unknowns`: B and M as well, which only `reduced` and poses'
+/// covariances need.
 HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
                                          bool with_unknowns) const {
   RowEquations sum;
@@ -260,8 +307,10 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
   }
   for (std::size_t finger = 0; finger < fingers(); ++finger) {
     Look one = look(sights[finger], state.placed[row], row, finger);
+    // In units of the errors: W = C^-1.
     const double square = one.residual.dot(one.information * one.residual);
     const Counted how = counted(one, square);
+    // Robust: a measurement counts by the probability that it is no outlier.
     one.information *= how.right;
     const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information;
     sum.pose += weighed * one.by_pose;
@@ -277,6 +326,7 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     const Eigen::Vector3d places = one.information * one.by_place;
     const double own = one.by_place.dot(places);
     const double slope = -places.dot(one.residual);
+    // ds / de = -L at e = 0, of s = z + L / (1 + e).
     const double by_stretch = -rows_.rows[row].contacts[finger].travelled;
     sum.mixed.col(k) += mixed;
     sum.own(k, k) += own;
@@ -291,21 +341,26 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
   for (std::size_t wheel = 0; wheel < wheels(); ++wheel) add_pin(state, row, wheel, with_unknowns, sum);
   if (row == 0 && rows_.pose) add_pose_prior(state.placed[row], sum);
   if (rows_.outlier_share > 0) {
-    // Where all are outliers the part is somewhere near.
+    // Where all measurements of a row are outliers, P would be singular. The precision of a perimeter and a radian
+    // shortens steps and moves no minimum.
     const double near = 1 / (part_.perimeter() * part_.perimeter());
     sum.pose.diagonal() += Eigen::Vector3d(near, near, 1);
   }
-  // What nothing tells stays: of rows without x and y where the part is.
+  // Without x and y the part's position is not determined: it stays where it is.
   if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
+  // P stays invertible where the heading is not determined either.
   sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
   return sum;
 }
 
+/// d in length, without x and y 0; r in radians.
 ContactResidual HoldFit::residual(const HeldState& state, std::size_t row, std::size_t finger) const {
   const Look one = look(state, row, finger);
   return {one.residual.head<2>(), one.residual(2)};
 }
 
+/// n given r, both normal with mean 0: the conditional mean cov(n, r) r / var(r) and what is left of the variance.
+/// Where kappa + kappa_finger = 0, r says nothing of n.
 HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t row, std::size_t finger) const {
   const Look one = look(state, row, finger);
   const HeldContact& contact = rows_.rows[row].contacts[finger];
@@ -319,7 +374,7 @@ HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t
   error.variance = variance * one.turn_variance / total;
   const double right = counted(one, one.residual.dot(one.information * one.residual)).right;
   if (right < 1 && bend != 0) {
-    // Of an outlier it is the contact or the orientation that is wrong, and nothing tells which.
+    // In an outlier the contact is wrong, n = -r / bend, or the orientation, n = 0. Both count as equally likely.
     const double half = 0.5 * one.residual(2) / bend;
     error.mean = right * error.mean - (1 - right) * half;
     error.variance += (1 - right) * half * half;
@@ -329,6 +384,8 @@ HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t
   return error;
 }
 
+/// Degrees of freedom of chi-square. A squeeze counts as one number over all rows; a row's pose takes 3, without x
+/// and y 1.
 double HoldFit::freedom(const HeldState& state) const {
   double numbers = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
@@ -339,10 +396,12 @@ double HoldFit::freedom(const HeldState& state) const {
       of_row += right * (one.angles + (rows_.errors[k].has_place ? 2 : 0));
     }
     for (const HeldWheel& wheel : rows_.wheels) {
+      // Together over all rows 1: each is weighed with n times the variance.
       const double of_line = wheel.line ? rows_.rows[row].weight / wheel.line_alike : 0;
       of_row += 1 + (wheel.spin ? 1 : 0) + of_line;
     }
     of_row -= rows_.any_place ? 3 : 1;
+    // A row of outliers can't take more than it has.
     numbers += rows_.outlier_share > 0 ? std::max(0.0, of_row) : of_row;
   }
   for (const HeldWheel& wheel : rows_.wheels) numbers -= wheel.spin ? 1 : 0;

@@ -22,7 +22,7 @@ struct BlurredPlace {
   double half_turn = 0;     // without blur: Theta is within this of `angle`
 };
 
-/// Beyond an open boundary's end it goes straight on, so that a fit finds back.
+/// p(s); beyond an open boundary's end its tangent continues it, so that a fit that has left it can return.
 Vec2 point_about(const Part& part, double s);
 
 /// Theta on average over a normal distribution about s. `pivot`: the length that a radian of pivoting counts as, of a
@@ -54,7 +54,7 @@ struct HoldFit::Sight {
   double blur_size = 0;                                   // of it what corners add
   double angles = 1;                                      // numbers that the angle counts as
   double turn_variance = 0;                               // of r without n, with what a corner adds
-  double s = 0;
+  double s = 0;                                           // the contact's place, z + L / (1 + e)
   // Where the normal turns unevenly over the contact's error n: without n.
   std::optional<Eigen::Matrix3d> bare_information{};
   double bare_log_size = 0;
@@ -64,33 +64,34 @@ struct HoldFit::Sight {
 /// A contact's residuals with their derivatives: of d (two rows) and of r.
 struct HoldFit::Look : Sight {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();   // a row of each residual; columns A.x, A.y, phi
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();  // by s
 };
 
 /// A wheel's residuals, of closure, encoder and line of force, with their derivatives; what is not measured is 0.
 struct HoldFit::PinLook {
-  NearPin near;
+  NearPin near;  // where the wheel touches
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();  // a row of each residual
-  Eigen::Vector3d information = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();      // a row of each residual
+  Eigen::Vector3d information = Eigen::Vector3d::Zero();  // 1 / variance of each
   double by_radius = 0;  // of the first by the radius, of the second by the encoder's zero
   double by_spin = 0;
   double log_size = 0;
 };
 
+/// The normal equations of one row, and what it adds to chi-square and to the density.
 struct HoldFit::RowEquations {
-  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
-  RowBlock mixed;
-  UnknownsMatrix own;
-  Unknowns own_slope;
-  double square = 0;
-  double right_square = 0;  // see HeldState, as are the next two
+  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();   // P = sum of A^T C^-1 A, by x, y of A and the heading
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();  // minus half the gradient of the square by the pose
+  RowBlock mixed;                                   // B; this and the next two only if asked for
+  UnknownsMatrix own;                               // M
+  Unknowns own_slope;                               // minus half the gradient by the unknowns
+  double square = 0;                                // of all residuals, with priors of the first row
+  double right_square = 0;                          // see HeldState, as are the next two
   double prior_square = 0;
   double strays = 0;
-  double log_size = 0;
-  double blur_size = 0;
+  double log_size = 0;   // sum of log det C over the measurements
+  double blur_size = 0;  // of it what corners add
 };
 
 }  // namespace rollfix::hold

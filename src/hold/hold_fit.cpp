@@ -41,6 +41,8 @@ constexpr double kFarOff = 2;  // ... still so many tolerances off, are the last
 
 }  // namespace
 
+/// Counts the unknowns: first contacts; with noise a stretch for each finger if any has one; each wheel's radius and
+/// encoder's zero. m is the mean of 64 points of the boundary.
 HoldFit::HoldFit(const Part& part, const HeldRows& rows, const WheelPaths& wheels)
     : part_(part), rows_(rows), wheels_(wheels), feet_(rows.rows.size() * rows.wheels.size()) {
   const bool any_stretch =
@@ -62,17 +64,20 @@ std::optional<Eigen::Index> HoldFit::radius_unknown(std::size_t wheel) const {
   return at;
 }
 
+/// A finger's stretch or a wheel's radius.
 std::optional<Eigen::Index> HoldFit::scale_unknown(std::size_t contact) const {
   if (contact >= fingers()) return radius_unknown(contact - fingers());
   return has_stretches_ ? std::optional(static_cast<Eigen::Index>(fingers() + contact)) : std::nullopt;
 }
 
+/// Of a wheel its radius over the stated one: its unknown is a length.
 std::pair<double, double> HoldFit::scale_of_lengths(std::size_t contact, double value, double sd) const {
   if (contact < fingers()) return {1 / (1 + value), sd / ((1 + value) * (1 + value))};
   const double radius = wheels_[contact - fingers()]->radius();
   return {1 + value / radius, sd / radius};
 }
 
+/// Behind the wheel's radius. The radius is of the noise: all wheels have an unknown of it, or none has.
 std::optional<Eigen::Index> HoldFit::spin_unknown(std::size_t wheel) const {
   if (!rows_.wheels[wheel].spin) return std::nullopt;
   if (const auto radius = radius_unknown(wheel)) return *radius + 1;
@@ -81,17 +86,19 @@ std::optional<Eigen::Index> HoldFit::spin_unknown(std::size_t wheel) const {
                        [](const HeldWheel& one) { return !one.spin; });
 }
 
+/// Its standard deviation beforehand. Of an encoder's zero, of which nothing is known, half a turn.
 double HoldFit::scale_of(Eigen::Index unknown) const {
   const double precision = prior_precision(unknown);
   return precision > 0 ? std::max(1 / std::sqrt(precision), 1e-6) : std::numbers::pi;
 }
 
-/// 0: nothing is known of it beforehand, as of a first contact.
+/// 1 / variance before the roll, about 0. 0: nothing is known beforehand, as of a first contact and an encoder's zero.
 double HoldFit::prior_precision(Eigen::Index unknown) const {
   const auto count = static_cast<Eigen::Index>(fingers());
   if (unknown < count) return 0;
   if (has_stretches_ && unknown < 2 * count) {
     const double sd = rows_.errors[static_cast<std::size_t>(unknown - count)].stretch;
+    // A finger without an error of its lengths beside others with one: its stretch stays 0.
     return sd > 0 ? 1 / (sd * sd) : 1e12;
   }
   for (std::size_t wheel = 0; wheel < wheels(); ++wheel) {
@@ -100,13 +107,15 @@ double HoldFit::prior_precision(Eigen::Index unknown) const {
   return 0;
 }
 
+/// s = z + L / (1 + e), unwrapped.
 double HoldFit::place_of(const HeldState& state, std::size_t row, std::size_t finger) const {
   const auto k = static_cast<Eigen::Index>(finger);
   const double stretch = has_stretches_ ? state.unknowns(static_cast<Eigen::Index>(fingers()) + k) : 0;
   return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch);
 }
 
-/// A pose that suits the contacts about: by the longest chord between them, or else by their normals.
+/// A pose from which a row's fit can start: its heading by the longest chord between contacts with places, else by
+/// their normals; beside wheels on a corner by the wheels.
 void HoldFit::guess(HeldState& state, std::size_t row) const {
   const HeldRow& now = rows_.rows[row];
   Placed& placed = state.placed[row];
@@ -119,6 +128,7 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
     points.push_back(rows_.errors[k].has_place ? point_about(part_, s) : Vec2::Zero());
     const double heading = now.contacts[k].tangent - at.angle;
     const double sd = std::hypot(rows_.errors[k].angle, blur * now.contacts[k].finger_curvature);
+    // Each normal gives a heading; their mean direction, weighed by 1 / variance, corners included.
     sum += Vec2(std::cos(heading), std::sin(heading)) / (sd * sd + at.variance);
   }
   placed.heading = std::atan2(sum.y(), sum.x());
@@ -128,6 +138,7 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
       const Vec2 chord = now.contacts[j].at - now.contacts[i].at;
       if (!rows_.errors[i].has_place || !rows_.errors[j].has_place || chord.norm() <= longest) continue;
       longest = chord.norm();
+      // A chord between two known places gives the heading better, the longer it is.
       placed.heading = angle_between(points[j] - points[i], chord);
     }
   }
@@ -136,6 +147,7 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
   placed.middle = Vec2::Zero();
   for (std::size_t k = 0; k < fingers(); ++k) {
     if (!rows_.errors[k].has_place) continue;
+    // A = q - R(phi) (p - m), on average over the fingers that have a place.
     placed.middle += now.contacts[k].at - turn.turned(points[k] - middle_);
     count += 1;
   }
@@ -143,7 +155,8 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
   if (fingers() == 1 && wheels() > 0) face_wheels(state, row);
 }
 
-/// Puts the part where a finger's centre is that is no evidence.
+/// Puts the part where the reference finger's centre was: x and y without a stated error place the part, and say
+/// nothing else.
 void HoldFit::refer(HeldState& state, std::size_t row) const {
   const Pose turn{0, 0, state.placed[row].heading};
   const Boundary boundary = part_.boundary();
@@ -152,18 +165,21 @@ void HoldFit::refer(HeldState& state, std::size_t row) const {
   state.placed[row].middle = rows_.rows[row].contacts[*rows_.reference].at - turn.turned(point - middle_);
 }
 
-/// The best pose of one row for the unknowns, from where it is: Newton's steps, shorter where they go too far.
+/// The best pose of one row for the unknowns, from where it is: Gauss-Newton steps, shortened where they go too far. A
+/// local minimum. Returns the row's equations there.
 HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const {
   const std::vector<Sight> sights = sights_at(state, row);
   RowEquations now = equations(state, row, sights, false);
   double share = 1;
   for (int round = 0; round < kPoseRounds; ++round) {
+    // P dx = slope: the minimum if residuals were linear in the pose.
     const Eigen::Vector3d step = share * now.pose.ldlt().solve(now.slope);
     if (!step.allFinite()) break;
     const Placed before = state.placed[row];
     state.placed[row].middle += step.head<2>();
     state.placed[row].heading += step(2);
     const RowEquations next = equations(state, row, sights, false);
+    // Too far: back, and a shorter step. `now` is always of the pose that the state has.
     if (next.square > now.square) {
       state.placed[row] = before;
       share *= 0.25;
@@ -175,15 +191,17 @@ HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const 
     share = 1;
     if (is_last) break;
   }
+  // For hold_paths.cpp.
   if (wheels() > 0) state.placed[row].heading_sd = std::sqrt(now.pose.inverse()(2, 2));
   return now;
 }
 
-/// The best poses for the unknowns, from where they are.
+/// The best poses for the unknowns, from where they are, and what all rows and priors come to.
 void HoldFit::settle(HeldState& state) const {
   state.square = state.cost = state.right_square = state.prior_square = state.strays = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
     RowEquations now = settled(state, row);
+    // A pose by outliers is a local minimum: look for a better one.
     if (now.strays > kAnyStray) now = settled_by_fewer(state, row, now);
     state.square += now.square;
     state.cost += now.square + now.blur_size;
@@ -192,6 +210,7 @@ void HoldFit::settle(HeldState& state) const {
     state.strays += now.strays;
     if (rows_.reference) refer(state, row);
   }
+  // Stretches and radii are 0 up to their standard deviations. An encoder's zero has the precision 0.
   for (auto k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
     const double square = state.unknowns(k) * state.unknowns(k) * prior_precision(k);
     state.square += square;
@@ -207,6 +226,7 @@ void HoldFit::settle(HeldState& state) const {
   state.prior_square += square;
 }
 
+/// First poses for these unknowns, row by row; nothing is fitted yet.
 HeldState HoldFit::guessed(const Unknowns& unknowns) const {
   HeldState state;
   state.unknowns = unknowns;
@@ -216,6 +236,7 @@ HeldState HoldFit::guessed(const Unknowns& unknowns) const {
   return state;
 }
 
+/// Stretches and radii are 0; encoders' zeros by all rows.
 HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
   Unknowns unknowns = Unknowns::Zero(size_);
   for (std::size_t k = 0; k < fingers(); ++k) unknowns(static_cast<Eigen::Index>(k)) = first_contacts[k];
@@ -224,6 +245,7 @@ HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
   return state;
 }
 
+/// With poses fitted from those of `near`, and its steps between poses.
 HeldState HoldFit::at(const Unknowns& unknowns, const HeldState& near) const {
   HeldState state;
   state.unknowns = unknowns;
@@ -233,6 +255,8 @@ HeldState HoldFit::at(const Unknowns& unknowns, const HeldState& near) const {
   return state;
 }
 
+/// Sum over the rows of M - B^T P^-1 B: rows share the unknowns alone, so that each pose is eliminated in its own
+/// row. Linear in the number of rows.
 Reduced HoldFit::reduced(const HeldState& state) const {
   Reduced sum;
   sum.matrix = UnknownsMatrix::Zero(size_, size_);
@@ -240,11 +264,13 @@ Reduced HoldFit::reduced(const HeldState& state) const {
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
     const RowEquations one = equations(state, row, sights_at(state, row), true);
     const Eigen::LDLT<Eigen::Matrix3d> pose(one.pose);
+    // P^-1 B.
     const RowBlock share = pose.solve(one.mixed);
     sum.matrix += one.own - UnknownsMatrix(one.mixed.transpose() * share);
     sum.slope += one.own_slope - Unknowns(share.transpose() * one.slope);
     // Where a wheel is at a row, the robot made: there is no density of it that a narrow row could be likelier by, and
     // rows are weighed by how well they fit alone.
+    // log det C + log det P: integrated over the pose, a row's density has the factor (det C det P)^(-1/2).
     const double volume = one.log_size + pose.vectorD().array().abs().log().sum();
     sum.log_volume -= 0.5 * (wheels() > 0 ? one.blur_size : volume);
   }
@@ -253,6 +279,7 @@ Reduced HoldFit::reduced(const HeldState& state) const {
     sum.matrix(k, k) += precision;
     sum.slope(k) -= precision * state.unknowns(k);
   }
+  // Of the first finger's first contact, unknown 0.
   if (rows_.prior) {
     const double precision = 1 / (rows_.prior->sd * rows_.prior->sd);
     sum.matrix(0, 0) += precision;
@@ -261,11 +288,14 @@ Reduced HoldFit::reduced(const HeldState& state) const {
   return sum;
 }
 
+/// Levenberg's method. The cost never grows from round to round. Steps are by the squares alone; what corners add to
+/// the cost only decides whether a step is taken.
 HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const {
   double damping = 1e-4;
   for (int round = 0; round < kMostFitRounds; ++round) {
     beat();
     Reduced now = reduced(state);
+    // The unknown's row and column become those of the unit matrix: its step is 0.
     if (held) {
       now.matrix.row(*held).setZero();
       now.matrix.col(*held).setZero();
@@ -277,6 +307,7 @@ HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const 
     double gain = 0;
     while (damping < kMostFitDamping && !is_better) {
       UnknownsMatrix damped = now.matrix;
+      // Relative damping, and a trace of an absolute one for directions that nothing determines.
       damped.diagonal() += damping * now.matrix.diagonal() +
                            Unknowns::Constant(size_, 1e-14 * trace + std::numeric_limits<double>::min());
       const Unknowns step = damped.ldlt().solve(now.slope);
@@ -291,12 +322,13 @@ HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const 
         damping *= 10;
       }
     }
+    // No step helps, or the last one gained too little.
     if (!is_better || gain <= settled_ * (1 + std::abs(state.cost))) break;
   }
   return state;
 }
 
-/// Of one finger, or behind all of them of a wheel.
+/// The largest residual of one finger at a row, or behind all of them of a wheel, over its tolerance.
 double HoldFit::worst_of(const HeldState& state, std::size_t row, std::size_t contact) const {
   if (contact >= fingers()) return worst_of_wheel(state, row, contact - fingers());
   const ContactResidual off = residual(state, row, contact);
@@ -305,6 +337,7 @@ double HoldFit::worst_of(const HeldState& state, std::size_t row, std::size_t co
   return std::max(place, std::abs(off.turn) / errors.angle);
 }
 
+/// The largest residual of all rows over its tolerance.
 double HoldFit::worst(const HeldState& state) const {
   double most = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
@@ -313,6 +346,8 @@ double HoldFit::worst(const HeldState& state) const {
   return most;
 }
 
+/// Minimises the largest residual by weighted least squares: after each fit every weight is multiplied by its
+/// residual's share of the largest. Returns the best state seen, with its squares unweighted.
 HeldState HoldFit::best_worst(HeldState from) {
   HeldState best = fit(std::move(from));
   double least = worst(best);
@@ -321,18 +356,22 @@ HeldState HoldFit::best_worst(HeldState from) {
   const double exact = std::exchange(settled_, kFitSettled);  // only the last fit must be exact
   int since = 0;                                              // it got better
   for (int round = 0; round < kWorstRounds && least > 1; ++round) {
+    // Far from fitting, and no longer getting better: given up.
     if (least > kFarOff && since == kNoGain) break;
     const double most = worst(state);
     double sum = 0;
     for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
       for (std::size_t k = 0; k < fingers() + wheels(); ++k) {
+        // The small term keeps a weight of a residual that is 0 just now.
         double& weight = weights_[row * (fingers() + wheels()) + k];
         weight *= 1e-6 + worst_of(state, row, k) / most;
         sum += weight;
       }
     }
+    // Weights are 1 on average.
     for (double& weight : weights_) weight *= static_cast<double>(weights_.size()) / sum;
     settle(state);
+    // `settle` has brought the state's cost to the new weights; `fit` compares with it.
     state = fit(std::move(state));
     const double now = worst(state);
     since = now < (1 - kBetter) * least ? 0 : since + 1;
@@ -346,6 +385,8 @@ HeldState HoldFit::best_worst(HeldState from) {
   return best;
 }
 
+/// Mean and covariance of x, y and heading, P^-1, moved from m to the origin of the part's frame. By the unknowns the
+/// pose changes by -P^-1 B.
 PoseAtRow HoldFit::pose_at(const HeldState& state, std::size_t row) const {
   const RowEquations one = equations(state, row, sights_at(state, row), true);
   const Eigen::Matrix3d covariance = one.pose.inverse();

@@ -22,14 +22,15 @@ using UnknownsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 
 struct Placed {
   Vec2 middle = Vec2::Zero();
   double heading = 0;     // radians
-  double heading_sd = 0;  // with noise, with the unknowns given
+  double heading_sd = 0;  // beside wheels, with the unknowns given; else 0
 };
 
 /// First contacts with the poses that suit them best.
 struct HeldState {
-  Unknowns unknowns;           // places of the first contacts, unwrapped, then stretches
+  Unknowns unknowns;           // first contacts, unwrapped, then stretches, then of each wheel ...
+                               // ... how much its radius is larger and its encoder's zero
   std::vector<Placed> placed;  // at each row
-  double square = 0;           // of all residuals, in their units
+  double square = 0;           // of all residuals over their errors, and of priors: chi-square
   double cost = 0;             // that, and with noise what corners add to the logarithm of the errors' size
   double steps = 0;            // in both: of going from pose to pose where rows have several, see hold_paths.cpp
   double right_square = 0;     // of what is no outlier, without priors
@@ -46,8 +47,8 @@ struct PoseAtRow {
 
 /// The normal equations of the unknowns, with all poses eliminated.
 struct Reduced {
-  UnknownsMatrix matrix;
-  Unknowns slope;
+  UnknownsMatrix matrix;  // H: sum over the rows of M - B^T P^-1 B, and priors
+  Unknowns slope;         // minus half the gradient of the square
   double log_volume = 0;  // of the poses and of the errors: what the density has besides the squares
 };
 
@@ -61,42 +62,50 @@ struct ContactResidual {
 /// poses are eliminated.
 class HoldFit {
  public:
+  /// All three have to outlive it.
   HoldFit(const Part& part, const HeldRows& rows, const WheelPaths& wheels);
 
   const HeldRows& rows() const { return rows_; }
   std::size_t fingers() const { return rows_.fingers(); }
   std::size_t wheels() const { return rows_.wheels.size(); }
+  /// How many unknowns there are.
   Eigen::Index size() const { return size_; }
   bool has_stretches() const { return has_stretches_; }
-  /// What an unknown that is no first contact can be at most, about.
+  /// A standard deviation of an unknown that is no first contact, before the roll; of an encoder's zero pi.
   double scale_of(Eigen::Index unknown) const;
 
   /// The state with these first contacts, and poses near a guess of each row.
   HeldState at(const std::vector<double>& first_contacts) const;
+  /// The state with these unknowns, its poses fitted from those of another.
   HeldState at(const Unknowns& unknowns, const HeldState& near) const;
   /// Beside wheels with poses that follow from one another: see hold_paths.cpp.
   HeldState afresh(const Unknowns& unknowns) const;
-  /// Downhill. `held`: this unknown stays. `weights`: of each contact of each row, see `best_worst`.
+  /// The nearest minimum of the cost, by Levenberg's method. `held`: this unknown stays.
   HeldState fit(HeldState state, std::optional<Eigen::Index> held = {}) const;
-  /// Without noise: downhill to where the largest residual is as small as can be.
+  /// Without noise: about the state whose largest residual, over its tolerance, is smallest; ends as soon as that is at
+  /// most 1. A local search: that it finds none proves nothing.
   HeldState best_worst(HeldState from);
 
   /// The state, and with other poses at its first and its last row all that fit these as well: a finger beside wheels
   /// that is on a corner there may face them in several ways.
   std::vector<HeldState> poses_at_ends(const HeldState& state) const;
 
+  /// The normal equations of the unknowns at a state, linear about its poses.
   Reduced reduced(const HeldState& state) const;
+  /// The part's pose at a row: x and y of the origin of its frame, heading.
   PoseAtRow pose_at(const HeldState& state, std::size_t row) const;
+  /// d and r of a contact.
   ContactResidual residual(const HeldState& state, std::size_t row, std::size_t finger) const;
   /// The largest residual as a share of what it may be: without noise at most 1 fits.
   double worst(const HeldState& state) const;
+  /// Where a contact is by its first contact and length alone, unwrapped: z + L / (1 + e).
   double place_of(const HeldState& state, std::size_t row, std::size_t finger) const;
-  /// With noise: how far off the place of the first (or of another) row's contact was measured, by its normal: mean,
-  /// its change with place and heading, and the variance left.
+  /// With noise: the error n of a row's contact along the boundary, as its normal tells it. The contact is at
+  /// z + L / (1 + e) - n.
   struct ContactError {
-    double mean = 0;
-    double by_turn = 0;  // of the residual of its normal
-    double variance = 0;
+    double mean = 0;       // length
+    double by_turn = 0;    // change of the mean with r
+    double variance = 0;   // that r leaves
     double curvature = 0;  // of the part there
   };
   ContactError contact_error(const HeldState& state, std::size_t row, std::size_t finger) const;
@@ -140,7 +149,7 @@ class HoldFit {
   /// The part as the finger may have it, and how far the wheels are from touching it then.
   struct Facing {
     Placed placed;
-    double off = 0;
+    double off = 0;  // sum over the wheels of distances, length
   };
   std::vector<Facing> facings(const HeldState& state, std::size_t row) const;
   Facing faced(std::size_t row, const Vec2& point, const Vec2& touched, double heading) const;
@@ -193,8 +202,8 @@ class HoldFit {
   /// How far each finger's contact moves at each row, in some way.
   using Way = std::function<double(std::size_t row, std::size_t finger)>;
   struct Moved {
-    const Way* way = nullptr;
-    double by = 0;
+    const Way* way = nullptr;  // nullptr: the unknowns can make up for all of them
+    double by = 0;             // times what the way says, by the normal equations
   };
   Moved best_moved(const std::vector<Way>& ways, const HeldState& state) const;
   double p_of_moved(const std::vector<Way>& ways, const HeldState& state) const;
@@ -206,11 +215,11 @@ class HoldFit {
   const HeldRows& rows_;
   const WheelPaths& wheels_;
   mutable std::vector<std::optional<touch::PathPlace>> feet_;  // of each row, of each wheel: where it was found last
-  bool has_stretches_ = false;
-  double settled_ = 0;  // a step that gains no more than this share of all squares and 1 is the last
-  Eigen::Index size_ = 0;
-  Vec2 middle_ = Vec2::Zero();
-  std::vector<double> weights_;
+  bool has_stretches_ = false;                                 // lengths of fingers are unknowns
+  double settled_ = 0;           // a step that gains no more than this share of all squares and 1 is the last
+  Eigen::Index size_ = 0;        // unknowns
+  Vec2 middle_ = Vec2::Zero();   // m, in the part's frame: poses are by where it is
+  std::vector<double> weights_;  // of each contact and wheel of each row; empty: 1 each
 };
 
 }  // namespace rollfix::hold

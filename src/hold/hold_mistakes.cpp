@@ -17,11 +17,14 @@
 //   trial           the problem as it would be without a mistake, and its answer; glance: by some of the rows
 //   excess          square root of chi-square over what is expected of it
 //   evidence        logarithm of the probability of all measurements, as noisy as they seem
-// Idea: as of one finger and of two, see answer/diagnosis.cpp: each mistake is undone, and the rows say how likely it
-// is.
+// Follows docs/two_fingers.md, "What may be wrong with three fingers".
+// Idea: as of one finger and of two, see answer/diagnosis.cpp. Each mistake is undone, and the problem solved again,
+// first at a glance. The noise is then taken as large as the residuals are, so that mistakes are compared by how well
+// the rows fit, and not by the stated noise.
 namespace rollfix::hold {
 namespace {
 
+// Rows and comparisons of a glance, comparisons of a trial: many mistakes are tried, each in a fraction of a search.
 constexpr std::size_t kGlanceRows = 24;
 constexpr std::size_t kGlanceBudget = kHoldBudget / 400;
 constexpr std::size_t kTrialBudget = kHoldBudget / 10;
@@ -63,15 +66,19 @@ struct Seen {
   double evidence = -kNever;
 };
 
+/// Of an answer that is complete, has a placement and was fitted; else nothing fits: infinitely bad.
 Seen seen(const std::optional<HoldAnswer>& answer) {
   if (!answer || answer->status != Status::complete || answer->placements.empty() || !answer->fit) return {};
   const double freedom = std::max(1, answer->fit->freedom);
   const double excess = std::sqrt(answer->fit->chi_square / freedom);
+  // With errors t times as large, t = excess, -chi^2 / 2 becomes -chi^2 / (2 t^2), and n measurements cost n log t.
   const double times = std::max(kExactNoise, excess);
   const double less = 0.5 * answer->fit->chi_square * (1 - 1 / (times * times));
   return {excess, answer->log_evidence + less - freedom * std::log(times)};
 }
 
+/// The answer to a mended problem, within a trial's budget; none: it is refused, as logs that nothing can have
+/// measured.
 std::optional<HoldAnswer> attempt(HoldProblem problem, Care care = Care::full) {
   const std::size_t budget = care == Care::full ? kTrialBudget : kGlanceBudget;
   problem.budget = std::min(problem.budget.value_or(budget), budget);
@@ -82,6 +89,7 @@ std::optional<HoldAnswer> attempt(HoldProblem problem, Care care = Care::full) {
   }
 }
 
+/// Small noise for a problem without; of the position where some log has x and y.
 Noise supposed_noise(const HoldProblem& problem) {
   Noise noise;
   noise.contact = kSupposedLength * problem.part.perimeter();
@@ -96,6 +104,7 @@ Noise supposed_noise(const HoldProblem& problem) {
 HoldProblem with_noise_and_same_rows(const HoldProblem& problem) {
   HoldProblem result = problem;
   if (!result.noise) result.noise = supposed_noise(problem);
+  // With noise neither tolerances nor chosen instants are taken.
   result.tolerance.reset();
   result.at.clear();
   std::vector<Log> logs = logs_of(problem);
@@ -108,6 +117,7 @@ std::optional<HoldProblem> with_open_lengths(const HoldProblem& problem, std::op
                                              double scale) {
   std::optional<HoldProblem> open = with_lengths(problem, whose, scale);
   if (!open) return open;
+  // The estimate of the lengths then says how far off the scale still is.
   const bool is_wheel = whose && *whose >= problem.logs.size();
   if (is_wheel) {
     const double radius = open->wheels[*whose - problem.logs.size()].radius;
@@ -118,6 +128,8 @@ std::optional<HoldProblem> with_open_lengths(const HoldProblem& problem, std::op
   return open;
 }
 
+/// A mistake that was tried with all rows, with how likely it makes them. `is_right`: without it the rows don't
+/// contradict the noise.
 struct Trial {
   HoldDiagnosis diagnosis;
   bool is_right = false;
@@ -134,14 +146,18 @@ struct PutOff {
 
 class Mistakes {
  public:
+  /// Looks at the problem as it is, by all rows and at a glance, to compare with.
   Mistakes(const HoldProblem& problem, const HoldAnswer& answer)
       : has_noise_(problem.noise.has_value()), problem_(with_noise_and_same_rows(problem)) {
     const std::optional<HoldAnswer> as_said = has_noise_ ? answer : attempt(problem_);
     as_said_ = seen(as_said);
+    // Any place fits the logs as they are: then an explanation may leave that so.
     is_anything_ = as_said && as_said->verdict.name == Verdict::unobservable;
     glance_ = glance(problem_);
   }
 
+  /// Tries each usual mistake in turn. Those that only seemed far better at a glance come last, and only if nothing
+  /// else explains the rows.
   std::vector<HoldDiagnosis> run() {
     try_noise();
     try_prior();
@@ -161,9 +177,11 @@ class Mistakes {
   }
 
  private:
+  /// How well the best place fits some of the rows: quick, and it may miss it.
   Seen glance(const HoldProblem& problem) const { return seen(attempt(thinned(problem, kGlanceRows), Care::glance)); }
 
   void take(HoldDiagnosis what, const HoldProblem& mended, double log_odds = 0) {
+    // About as noisy as stated: all rows decide. Far better than before: kept for later.
     const double excess = glance(mended).excess;
     if (excess <= kWorthLooking) {
       add(std::move(what), mended, attempt(mended), log_odds);
@@ -187,6 +205,7 @@ class Mistakes {
     const Seen now = seen(answer);
     if (!std::isfinite(now.excess)) return false;
     const bool is_right = !answer->is_contradicted();
+    // Neither explains the rows nor comes much closer.
     if (!is_right && !(now.excess < kFarBetter * as_said_.excess)) return false;
     // What would have any place fit explains nothing.
     if (answer->verdict.name == Verdict::unobservable && !is_anything_) return false;
@@ -196,7 +215,9 @@ class Mistakes {
     what.placements = answer->placements;
     // Of a shifted log some rows are left.
     const double rows = static_cast<double>(problem_.logs.front().rows()) / static_cast<double>(answer->rows);
+    // Per row, as if none were left out.
     const double evidence = now.evidence * (what.cause == HoldCause::late ? rows : 1) + log_odds;
+    // Both evidences let the noise be as large as the rows have it: the mistake competes with plain noise.
     what.log_odds = evidence - as_said_.evidence;
     trials_.push_back({std::move(what), is_right, evidence});
     return is_right;
@@ -213,9 +234,11 @@ class Mistakes {
         return;
       }
     }
+    // Doubled until a glance fits; from there the factor follows from the excess.
     for (double factor = 2; factor <= kMostNoisier; factor *= 2) {
       const Seen now = glance(noisier(problem_, factor));
       if (!(now.excess <= 1)) continue;
+      // The excess that is left, times what was tried.
       const double times = factor * now.excess;
       HoldDiagnosis what{HoldCause::noise};
       what.factor = times;
@@ -226,6 +249,7 @@ class Mistakes {
     }
   }
 
+  /// What was known beforehand is wrong.
   void try_prior() {
     if (!problem_.prior && !problem_.pose) return;
     HoldProblem without = problem_;
@@ -234,12 +258,15 @@ class Mistakes {
     take({HoldCause::prior}, without);
   }
 
+  /// The part lies the other way up.
   void try_mirror() {
     HoldProblem without = problem_;
     without.mirrored = !problem_.mirrored;
     take({HoldCause::mirrored}, without);
   }
 
+  /// Scales of lengths: at a glance each of a coarse list, with a slip that leaves the scale open about it; the best
+  /// are settled. `whose`: a finger's or a wheel's radius; none: all lengths.
   void try_lengths(std::optional<std::size_t> whose) {
     std::vector<std::pair<double, double>> by_evidence;
     for (const double scale : kLengthScales) {
@@ -264,6 +291,7 @@ class Mistakes {
       if (!answer || answer->placements.empty()) return false;
       double sum = 0, weights = 0;
       for (std::size_t k = 0; k < count_of_logs(problem_); ++k) {
+        // One finger's estimate, or that of all fingers, each by 1 / variance.
         if (whose ? *whose != k : k >= problem_.logs.size()) continue;
         const HoldContact& contact = answer->placements.front().contacts[k];
         const double weight = 1 / std::max(1e-18, contact.length_scale_sd * contact.length_scale_sd);
@@ -273,8 +301,10 @@ class Mistakes {
       const double by = sum / weights;
       scale *= by;
       sd = scale / std::sqrt(weights);
+      // Settled: the last correction is small against its error.
       if (std::abs(by - 1) * scale < 0.2 * sd) break;
     }
+    // As good as 1: the lengths are not the mistake.
     if (std::abs(scale - 1) < kScaleDiffers * sd) return false;
     HoldDiagnosis what{HoldCause::radius};
     what.finger = whose;
@@ -284,6 +314,7 @@ class Mistakes {
     return add(what, mended, attempt(mended));
   }
 
+  /// The part is not squeezed.
   void try_squeezed() {
     if (!problem_.squeezed) return;
     HoldProblem without = problem_;
@@ -291,12 +322,14 @@ class Mistakes {
     take({HoldCause::squeezed}, without);
   }
 
+  /// A few outliers. The robust answer has to find one at least, and no more than a few are believed.
   void try_stray() {
     if (problem_.robust) return;
     HoldProblem robust = problem_;
     robust.robust = true;
     const std::optional<HoldAnswer> answer = attempt(robust);
     if (!answer) return;
+    // Measurements that do not count, and rows that jump away.
     const std::size_t strays = answer->strays + answer->jumps.size();
     const auto all = static_cast<double>(count_of_logs(problem_) * problem_.logs.front().rows());
     if (strays < 1 || static_cast<double>(strays) > std::max(3.0, kMostOutliers * all)) return;
@@ -310,10 +343,12 @@ class Mistakes {
     if (count_of_logs(problem_) == 2 && log == 0) return;
     const auto rows = static_cast<int>(problem_.logs.front().rows());
     const int unit = std::max(1, rows / static_cast<int>(2 * kGlanceRows));
+    // No shift leaves out more than half of the rows.
     const auto evidence = [&](int shift) {
       return 2 * std::abs(shift) > rows ? -kNever
                                         : glance(noisier(shifted(problem_, log, shift), kNoiseFromAfar)).evidence;
     };
+    // The best shift of a coarse list, then halving strides about it.
     int best = 0;
     double most = evidence(0);
     for (const int step : kShifts) {
@@ -346,8 +381,10 @@ class Mistakes {
                        [](const Trial& trial) { return trial.is_right && trial.diagnosis.cause != HoldCause::noise; });
   }
 
+  /// Lengths that slip: a little, then much, the latter only where nothing else explains the rows.
   void try_slip() {
     for (const auto& [slip, log_odds] : kSlips) {
+      // As much was stated already.
       if (slip <= problem_.noise->slip) continue;
       if (slip == kSlips.back().slip && is_explained()) return;
       HoldProblem slipping = problem_;
@@ -357,7 +394,9 @@ class Mistakes {
     }
   }
 
+  /// Those that explain the rows, else those that come closer, up to kMostExplanations, the likeliest first.
   std::vector<HoldDiagnosis> likeliest() {
+    // Evidences within one step count as equal: the stable sort keeps the more common mistake first.
     const auto steps = [](const Trial& trial) { return std::round(trial.evidence / kStepOfEvidence); };
     std::stable_sort(trials_.begin(), trials_.end(), [&](const Trial& a, const Trial& b) {
       return a.is_right != b.is_right ? a.is_right : steps(a) > steps(b);

@@ -16,10 +16,11 @@
 //   H               their information with all poses eliminated: Reduced::matrix
 //   a               the axis: the first contact that is known worst; the ridge is u(a), the best u with z_a held
 //   log p(a)        -chi^2 / 2 + log volume - log det(H without a) / 2: HoldNode::log_density
-//   D               scale of each unknown: its set's width / sqrt(12), which it has where nothing tells it
+//   D               scale of each unknown: its set's width / sqrt(12), its standard deviation where no measurement
+//                   determines it
 // Follows docs/two_fingers.md, "Three and more fingers".
 // Idea: with three fingers what noise leaves is at most a curve thickened by normal distributions. Directions that
-// nothing tells keep the width of their set.
+// no measurement determines keep the width of their set.
 namespace rollfix::hold {
 namespace {
 
@@ -51,23 +52,29 @@ Inverse inverse_within(const UnknownsMatrix& information, const Scale& scale) {
   Inverse inverse;
   inverse.covariance = UnknownsMatrix::Zero(scale.size(), scale.size());
   if (scale.size() == 0) return inverse;
+  // In units of the scales an eigenvalue of 1 is a direction known as well as its scale; less is set to 1.
   const UnknownsMatrix scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<UnknownsMatrix> eigen(scaled);
   Unknowns values = eigen.eigenvalues();
   for (Eigen::Index k = 0; k < values.size(); ++k) {
+    // NaN counts as free.
     if (!(values(k) > 1)) {
       values(k) = 1;
       ++inverse.free;
     }
     inverse.log_determinant += std::log(values(k)) - 2 * std::log(scale(k));
   }
+  // D V diag(1 / values) V^T D, and log det = sum of log values - 2 sum of log D.
   const UnknownsMatrix vectors = scale.asDiagonal() * eigen.eigenvectors();
   inverse.covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
   return inverse;
 }
 
+/// The posterior along one ridge: nodes from a peak to both sides, each with the best unknowns for its place on the
+/// axis.
 class RidgeWalk {
  public:
+  /// Chooses the axis, and the peak's node. `start`: a minimum of the cost, in `set`.
   RidgeWalk(const HoldFit& fit, const Part& part, const HeldSet& set, const Optimum& start)
       : fit_(fit), boundary_(part.boundary()), scale_(Scale::Constant(fit.size(), 1)) {
     const auto fingers = static_cast<Eigen::Index>(fit.fingers());
@@ -77,18 +84,23 @@ class RidgeWalk {
       if (k >= fingers) continue;
       const double width = set.extent[static_cast<std::size_t>(k)].width();
       widest = std::max(widest, width);
+      // A place that is as likely anywhere on its set has this standard deviation.
       scale_(k) = std::max(width, fit.rows().errors[static_cast<std::size_t>(k)].travel) / std::sqrt(12.0);
     }
     const Inverse whole = inverse_within(fit.reduced(start.state).matrix, scale_);
     free_ = whole.free;
+    // On a set that is short no direction is called free.
     is_free_ = free_ > 0 && widest > kFreeShare * boundary_.perimeter;
+    // Only first contacts can be the axis.
     whole.covariance.diagonal().head(fingers).maxCoeff(&axis_);
     sd_ = std::sqrt(whole.covariance(axis_, axis_));
     most_step_ = std::max(scale_(axis_) * std::sqrt(12.0) * kMostOfSet, 0.1 * sd_);
     peak_ = node_at(start.state);
   }
 
+  /// Fills `nodes`, in the order of the axis, and `beyond`.
   void run() {
+    // Half around to each side: places are not visited twice.
     const double room = boundary_.closed ? 0.5 * boundary_.perimeter : boundary_.perimeter;
     std::vector<HoldNode> behind = walk(-1, room);
     std::reverse(behind.begin(), behind.end());
@@ -96,9 +108,11 @@ class RidgeWalk {
     nodes.push_back(peak_);
     for (HoldNode& node : walk(1, room)) nodes.push_back(std::move(node));
     for (std::size_t k = 0; k < nodes.size(); ++k) {
+      // Widths of the trapezoid rule. A node alone stands for a normal peak, whose integral is sd sqrt(2 pi).
       const double lo = k > 0 ? place(nodes[k]) - place(nodes[k - 1]) : 0;
       const double hi = k + 1 < nodes.size() ? place(nodes[k + 1]) - place(nodes[k]) : 0;
       nodes[k].width = nodes.size() == 1 ? sd_ * std::sqrt(2 * std::numbers::pi) : 0.5 * (lo + hi);
+      // The axis is held at a node; over the width that it stands for it is uniform.
       nodes[k].covariance(axis_, axis_) += nodes[k].width * nodes[k].width / 12;
     }
   }
@@ -106,12 +120,14 @@ class RidgeWalk {
   /// Whether another optimum lies on the ridge.
   bool passes(const HeldState& other) const {
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      // On the lap of the node.
       const double at = place(nodes[k]) + offset(nodes[k].state, other, axis_);
       if (at < place(nodes[k]) || at > place(nodes[k + 1])) continue;
       const double share = (at - place(nodes[k])) / std::max(place(nodes[k + 1]) - place(nodes[k]), 1e-300);
       bool is_on = true;
       for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fit_.fingers()) && is_on; ++i) {
         if (i == axis_) continue;
+        // The ridge between two nodes is a straight line; within a standard deviation of it counts as on it.
         const double mean = share * (nodes[k + 1].state.unknowns(i) - nodes[k].state.unknowns(i));
         is_on = std::abs(offset(nodes[k].state, other, i) - mean) <= std::sqrt(nodes[k].covariance(i, i));
       }
@@ -147,11 +163,14 @@ class RidgeWalk {
 
   double place(const HoldNode& node) const { return node.state.unknowns(axis_); }
 
+  /// log p at a state: integrated over all unknowns but the axis by Laplace's method. The covariance is of those; the
+  /// axis' row and column are 0.
   HoldNode node_at(const HeldState& state) const {
     HoldNode node;
     node.state = state;
     const Reduced now = fit_.reduced(state);
     const Eigen::Index rest = fit_.size() - 1;
+    // H and D without the axis.
     UnknownsMatrix without(rest, rest);
     Scale scale(rest);
     for (Eigen::Index i = 0; i < rest; ++i) {
@@ -170,6 +189,7 @@ class RidgeWalk {
     return node;
   }
 
+  /// The node a step along the axis further. The fit starts on the straight line through the last two nodes.
   HoldNode next_to(const HoldNode& from, const HoldNode* before, double step) const {
     Unknowns unknowns = from.state.unknowns;
     if (before != nullptr && place(from) != place(*before)) {
@@ -180,10 +200,12 @@ class RidgeWalk {
     return node_at(fit_.fit(fit_.at(unknowns, from.state), axis_));
   }
 
+  /// Nodes on one side of the peak. `direction`: 1 or -1 along the axis; `room`: length at most.
   std::vector<HoldNode> walk(int direction, double room) {
     std::vector<HoldNode> found;
     double step = std::min(kRidgeStep * sd_, most_step_);
     const double least_step = step / 64;
+    // The least density so far, to notice a valley.
     double lowest = peak_.log_density;
     std::size_t lowest_at = 0;  // nodes up to it
     while (found.size() < kMostNodes) {
@@ -194,20 +216,24 @@ class RidgeWalk {
       if (gone >= room * (1 - 1e-9)) break;
       double now = std::min(step, room - gone);
       HoldNode next = next_to(from, before, direction * now);
+      // Where the density changes fast, steps are halved, down to a 64th of the first.
       while (std::abs(next.log_density - from.log_density) > kSteep && now > least_step &&
              from.log_density > peak_.log_density - kRidgeEnd) {
         now *= 0.5;
         next = next_to(from, before, direction * now);
       }
       step = now;
+      // Where it is flat they grow again.
       if (std::abs(next.log_density - from.log_density) < kFlat) step = std::min(1.6 * now, most_step_);
       if (!std::isfinite(next.log_density)) break;
       found.push_back(std::move(next));
       const double log_density = found.back().log_density;
+      // Beyond five standard deviations: what is left does not count.
       if (log_density < peak_.log_density - kRidgeEnd) break;
       if (log_density < lowest) {
         lowest = log_density;
         lowest_at = found.size();
+        // It rises again: another peak. Nodes end in the valley, and the peak has a ridge of its own.
       } else if (log_density > lowest + kRising) {
         beyond.push_back({fit_.fit(found.back().state), lowest});
         found.resize(lowest_at);
@@ -228,6 +254,7 @@ class RidgeWalk {
   HoldNode peak_;
 };
 
+/// log of the integral of p over the axis, without overflow.
 double log_sum(const std::vector<HoldNode>& nodes) {
   double most = -std::numeric_limits<double>::infinity();
   for (const HoldNode& node : nodes) most = std::max(most, node.log_density);
@@ -247,6 +274,8 @@ class Humps {
  public:
   Humps(const HoldFit& fit, const Part& part, const std::vector<HeldSet>& sets) : fit_(fit), part_(part), sets_(sets) {}
 
+  /// A ridge from each optimum, the best first, that lies on none before it. Peaks found behind valleys become optima
+  /// too.
   std::vector<HoldMode> run(std::vector<Optimum> optima) {
     std::stable_sort(optima.begin(), optima.end(),
                      [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
@@ -277,6 +306,7 @@ class Humps {
     double valley = 0;  // log density
   };
 
+  /// The head of a ridge's mode.
   std::size_t head_of(std::size_t k) const {
     while (ridges_[k].head != k) k = ridges_[k].head;
     return k;
@@ -286,12 +316,14 @@ class Humps {
   std::optional<std::size_t> known(const HeldState& state, std::size_t set) const {
     for (std::size_t k = 0; k < ridges_.size(); ++k) {
       const RidgeWalk& walk = ridges_[k].walk;
+      // A set that is free in two directions has one ridge, which stands for all of it.
       const bool is_all = ridges_[k].set == set && walk.is_free() && walk.free() > 1;
       if (is_all || walk.passes(state) || walk.is_peak(state)) return k;
     }
     return std::nullopt;
   }
 
+  /// Two ridges are one mode if the valley between their peaks is not below 5 % of the lower peak.
   void join() {
     for (const Link& link : links_) {
       const std::optional<std::size_t> to = known(link.to, sets_.size());
@@ -303,6 +335,7 @@ class Humps {
     }
   }
 
+  /// Of each head its own nodes and those of all ridges that joined it.
   std::vector<HoldMode> modes() const {
     std::vector<HoldMode> modes;
     for (std::size_t top = 0; top < ridges_.size(); ++top) {
@@ -342,6 +375,8 @@ Eigen::Vector2d heading_sds(const HoldFit& fit, const HeldState& state) {
   return {std::sqrt(fit.pose_at(state, 0).covariance(2, 2)), std::sqrt(fit.pose_at(state, last).covariance(2, 2))};
 }
 
+/// The part lies differently at one of the ends, by more than both headings' standard deviations, times kApart,
+/// together.
 bool are_apart(const HoldFit& fit, const HeldState& one, const HeldState& other) {
   const Eigen::Vector2d sds = heading_sds(fit, one) + heading_sds(fit, other);
   return (turned_at_ends(one, other).array() > kApart * sds.array()).any();
@@ -351,6 +386,7 @@ bool are_apart(const HoldFit& fit, const HeldState& one, const HeldState& other)
 std::vector<HeldState> ways_to_lie(const HoldFit& fit, const HoldMode& mode) {
   std::vector<HeldState> most = fit.poses_at_ends(mode.best);
   for (std::size_t k = 0; k < kWayLooks; ++k) {
+    // Spread evenly over the nodes.
     const HoldNode& node = mode.nodes[(2 * k + 1) * mode.nodes.size() / (2 * kWayLooks)];
     std::vector<HeldState> ways = fit.poses_at_ends(node.state);
     if (ways.size() > most.size()) most = std::move(ways);
@@ -366,11 +402,13 @@ std::vector<HoldMode> split_by_poses(const HoldFit& fit, const HoldMode& mode) {
   if (ways.size() < 2) return {mode};
   std::vector<HoldMode> found;
   for (const HeldState& way : ways) {
+    // Ways that differ by less than the noise leaves open go into one mode.
     auto own = std::ranges::find_if(found, [&](const HoldMode& one) { return !are_apart(fit, way, one.best); });
     if (own == found.end()) own = found.insert(found.end(), {way, {}, 0, mode.continuum, mode.set});
     for (const HoldNode& node : mode.nodes) {
       own->nodes.push_back(node);
       own->nodes.back().state = fit.at(node.state.unknowns, way);
+      // The poses cost more or less; the volume about them is taken as the same.
       own->nodes.back().log_density -= 0.5 * (own->nodes.back().state.square - node.state.square);
     }
   }

@@ -28,8 +28,9 @@ constexpr std::size_t kFirstRows = 3;
 
 /// Rows that jump away, from the log's first row on.
 std::set<std::size_t> jumps_of(Log log, const HoldProblem& problem, std::size_t number) {
-  log.fingers.front().line.clear();  // so that rows are told by their numbers
+  log.fingers.front().line.clear();  // so that rows are reported by their numbers
   std::vector<std::size_t> numbers;
+  // Only the numbers of the rows are asked for, from 1.
   without_strays(log, problem.part, {finger_of_log(problem, number)}, *problem.noise, &numbers);
   std::set<std::size_t> rows;
   for (const std::size_t one : numbers) rows.insert(one - 1);
@@ -42,6 +43,7 @@ std::set<std::size_t> jumps_backwards(const Log& log, const HoldProblem& problem
   std::vector<std::size_t> rows;
   for (std::size_t row = count; row > 0; --row) rows.push_back(row - 1);
   Log back = with_rows(log, rows);
+  // Times grow with the rows again.
   for (double& time : back.time) time = -time;
   std::set<std::size_t> found;
   for (const std::size_t row : jumps_of(std::move(back), problem, number)) found.insert(count - 1 - row);
@@ -50,8 +52,10 @@ std::set<std::size_t> jumps_backwards(const Log& log, const HoldProblem& problem
 
 /// First those at the start, which would be taken for the roll, then the others.
 std::set<std::size_t> jumps_in(const Log& log, const HoldProblem& problem, std::size_t number) {
+  // Seen from the end, the roll is known before its first rows are looked at.
   const std::set<std::size_t> backwards = jumps_backwards(log, problem, number);
   std::size_t start = 0;
+  // Rows from the first on, without a gap, that jump as seen from behind.
   while (start < kFirstRows && backwards.contains(start)) ++start;
   std::vector<std::size_t> rows;
   for (std::size_t row = start; row < log.rows(); ++row) rows.push_back(row);
@@ -61,6 +65,7 @@ std::set<std::size_t> jumps_in(const Log& log, const HoldProblem& problem, std::
   return found;
 }
 
+/// "b.csv, line 17"; of simulated rows their number.
 std::string name_of_row(const Log& log, std::size_t row) {
   const std::vector<std::size_t>& lines = log.fingers.front().line;
   return row < lines.size() ? fmt::format("{}, line {}", log.name, lines[row])
@@ -88,6 +93,7 @@ std::vector<std::optional<std::size_t>> whose_logs(const HoldProblem& problem) {
   return all;
 }
 
+/// The problem with the rows of all logs, or of one, changed.
 HoldProblem mended(const HoldProblem& problem, std::optional<std::size_t> whose,
                    const std::function<void(FingerRows&)>& mend) {
   HoldProblem result = problem;
@@ -97,10 +103,12 @@ HoldProblem mended(const HoldProblem& problem, std::optional<std::size_t> whose,
   return result;
 }
 
+/// How many rows `whose` stands for.
 double rows_of(const HoldProblem& problem, std::optional<std::size_t> whose) {
   return static_cast<double>(problem.logs.front().rows() * (whose ? 1 : count_of_logs(problem)));
 }
 
+/// REQUIRES at least one value.
 double range_of(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return *most - *least;
@@ -119,6 +127,7 @@ bool may_be_degrees(const HoldProblem& problem, std::optional<std::size_t> whose
   return true;
 }
 
+/// Multiplies columns by a factor.
 void times(FingerRows& rows, const std::vector<Column>& columns, double factor) {
   for (const Column column : columns) {
     for (double& value : rows.*column) value *= factor;
@@ -127,6 +136,7 @@ void times(FingerRows& rows, const std::vector<Column>& columns, double factor) 
 
 }  // namespace
 
+/// Columns that the log lacks stay empty.
 Log with_rows(const Log& log, const std::vector<std::size_t>& rows) {
   Log result = log;
   const auto choose = [&](auto& column, const auto& from) {
@@ -142,6 +152,7 @@ Log with_rows(const Log& log, const std::vector<std::size_t>& rows) {
   return result;
 }
 
+/// A row in which any finger jumps is taken out of all logs, so that row k stays one instant.
 std::vector<std::string> leave_out_jumps(const HoldProblem& problem, std::vector<Log>& logs) {
   std::set<std::size_t> out;
   std::vector<std::string> names;
@@ -160,9 +171,11 @@ std::vector<std::string> leave_out_jumps(const HoldProblem& problem, std::vector
   return names;
 }
 
+/// Each mistake for all logs of fingers, where no wheel is beside, and for each alone; of encoders psi alone.
 std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
   const std::vector<Column> u{&FingerRows::u}, psi{&FingerRows::psi}, both{&FingerRows::u, &FingerRows::psi};
   std::vector<Mended> all;
+  // `log_stretch`: 0 where only the sign changes, or where what counts keeps its unit.
   const auto add = [&](HoldCause cause, std::optional<std::size_t> whose, double log_stretch, const auto& mend) {
     HoldDiagnosis what{cause};
     what.finger = whose;
@@ -196,6 +209,7 @@ std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
   return all;
 }
 
+/// Only where x and y are evidence.
 std::vector<Mended> without_exchanged_axes(const HoldProblem& problem) {
   std::vector<Mended> all;
   if (problem.noise->position <= 0) return all;
@@ -207,6 +221,7 @@ std::vector<Mended> without_exchanged_axes(const HoldProblem& problem) {
   return all;
 }
 
+/// Only where x and y are evidence, and with the new unit the fingers are as far apart as on such a part.
 std::vector<Mended> without_units(const HoldProblem& problem) {
   std::vector<Mended> all;
   if (problem.noise->position <= 0) return all;
@@ -218,7 +233,9 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
       what.factor = scale.factor;
       what.unit = scale.from;
       what.into = scale.to;
+      // log_stretch: two columns of each row.
       HoldProblem without = mended(problem, whose, [&](FingerRows& rows) { times(rows, centre, scale.factor); });
+      // The farthest that a log's first centre is from the first log's.
       double apart = 0;
       for (std::size_t k = 0; k < count_of_logs(without); ++k) {
         const FingerRows &one = log_of(without, k).fingers.front(), &first = without.logs.front().fingers.front();
@@ -226,6 +243,7 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
         apart = std::max(apart, std::hypot(one.x.front() - first.x.front(), one.y.front() - first.y.front()));
       }
       const double perimeter = problem.part.perimeter();
+      // All centres at one place, or far beyond any part: another unit.
       if (apart < kLeastApart * perimeter || apart > kMostApart * perimeter) continue;
       all.push_back({std::move(what), std::move(without), 2 * rows_of(problem, whose) * std::log(scale.factor)});
     }
@@ -233,6 +251,7 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
   return all;
 }
 
+/// Each pair of fingers that differ. With one finger for all logs there are none.
 std::vector<Mended> without_swaps(const HoldProblem& problem) {
   std::vector<Mended> all;
   const std::vector<Finger>& fingers = problem.fingers;
@@ -240,6 +259,7 @@ std::vector<Mended> without_swaps(const HoldProblem& problem) {
     for (std::size_t j = i + 1; j < fingers.size(); ++j) {
       const bool are_alike = fingers[i].name() == fingers[j].name() && fingers[i].outline() == fingers[j].outline() &&
                              fingers[i].length_per_u() == fingers[j].length_per_u();
+      // Exchanged they would give the same problem.
       if (are_alike) continue;
       Mended one{{HoldCause::fingers_swapped}, problem};
       one.what.finger = i;
@@ -251,22 +271,28 @@ std::vector<Mended> without_swaps(const HoldProblem& problem) {
   return all;
 }
 
+/// Radii of disks, or of a wheel, times `scale`. None: no finger meant is a disk.
 std::optional<HoldProblem> with_lengths(const HoldProblem& problem, std::optional<std::size_t> whose, double scale) {
   HoldProblem result = problem;
+  // A wheel's length rolled is r times its turn.
   if (whose && *whose >= problem.logs.size()) {
     result.wheels[*whose - problem.logs.size()].radius *= scale;
     return result;
   }
+  // One finger that held for all becomes one for each log.
   if (whose && result.fingers.size() == 1) result.fingers.assign(problem.logs.size(), problem.fingers.front());
   bool any = false;
   for (std::size_t k = 0; k < result.fingers.size(); ++k) {
     if ((whose && *whose != k) || !result.fingers[k].is_disk()) continue;
+    // Lengths of a disk are r times angles; other fingers measure lengths themselves.
     result.fingers[k] = disk(scale * result.fingers[k].disk()->radius);
     any = true;
   }
   return any ? std::optional<HoldProblem>(std::move(result)) : std::nullopt;
 }
 
+/// Logs lose |rows| rows: the shifted one those at one end, the others those at the other. Times are those of a log
+/// that is not shifted.
 HoldProblem shifted(const HoldProblem& problem, std::size_t log, int rows) {
   HoldProblem result = problem;
   const std::size_t count = problem.logs.front().rows();
@@ -277,6 +303,7 @@ HoldProblem shifted(const HoldProblem& problem, std::size_t log, int rows) {
     last.push_back(row + by);
   }
   for (std::size_t k = 0; k < count_of_logs(result); ++k) {
+    // rows > 0: row k + rows of the log goes with row k of the others.
     log_of(result, k) = with_rows(log_of(problem, k), (k == log) == (rows > 0) ? last : first);
   }
   const std::vector<double> time = log_of(result, log == 0 ? 1 : 0).time;
@@ -284,6 +311,7 @@ HoldProblem shifted(const HoldProblem& problem, std::size_t log, int rows) {
   return result;
 }
 
+/// Slip, radius and the part's own accuracy stay as they are. No angle's error exceeds what is taken as noise.
 HoldProblem noisier(const HoldProblem& problem, double times) {
   HoldProblem result = problem;
   for (double* const sd : {&result.noise->contact, &result.noise->angle, &result.noise->position}) *sd *= times;
@@ -300,6 +328,7 @@ HoldProblem thinned(const HoldProblem& problem, std::size_t rows) {
   for (std::size_t k = 0; k < count_of_logs(result); ++k) {
     FingerRows& of = log_of(result, k).fingers.front();
     if (!of.psi.empty()) {
+      // Angles are unwrapped by all rows: between those that are left they may go more than half around.
       const std::vector<Contact> contacts = contacts_of(of, shape_of(problem, k));
       for (std::size_t row = 0; row < contacts.size(); ++row) {
         of.u[row] = contacts[row].u;

@@ -24,8 +24,11 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError("fingers on a free part: " + what); }
 
+/// 0 is a.
 char finger_letter(std::size_t finger) { return static_cast<char>('a' + finger); }
 
+/// Two bodies at least, one of them with skin; one finger that holds for all logs, or one for each. No finger with
+/// corners.
 void require_fingers(const HoldProblem& problem) {
   const std::size_t count = problem.logs.size();
   const std::size_t all = count + problem.wheels.size();
@@ -50,6 +53,7 @@ void require_fingers(const HoldProblem& problem) {
   require_no_corners(problem.fingers, problem.wheels.empty() ? "three and more fingers" : "a finger beside a wheel");
 }
 
+/// The log of one finger, of u and psi, with two rows at least.
 void require_log(const Log& log) {
   if (log.fingers.size() != 1) {
     refuse(fmt::format("{}: expected the log of one finger, found one of two; give each finger its own log", log.name));
@@ -62,7 +66,8 @@ void require_log(const Log& log) {
   if (log.rows() < 2) refuse(fmt::format("{}: expected at least 2 rows, found {}", log.name, log.rows()));
 }
 
-/// A wheel says where it was. What that comes to is known if a finger with skin was somewhere in the same frame.
+/// Wheels with a radius and two rows of x and y. They need a finger with skin that has x and y as well: a pin tells
+/// something only as seen from it. A squeeze needs one finger and one wheel.
 void require_wheels(const HoldProblem& problem) {
   for (const PassiveWheel& wheel : problem.wheels) {
     rollfix::require_valid(Finger(disk(wheel.radius)));
@@ -93,12 +98,13 @@ void require_wheels(const HoldProblem& problem) {
                     "where its pin was as seen from the finger; without both any place on the part fits",
                     problem.logs.front().name));
   }
+  // Without a stated error x and y are no evidence.
   if (problem.noise && !(problem.noise->position > 0)) {
     refuse("expected noise with position=SD beside a wheel, found none: all that a wheel says is where its pin was");
   }
 }
 
-/// Two fingers are not at one place.
+/// Two logs with the same rows are one file given twice: two fingers are not at one place.
 void require_different(const std::vector<Log>& logs) {
   for (std::size_t k = 1; k < logs.size(); ++k) {
     for (std::size_t i = 0; i < k; ++i) {
@@ -110,7 +116,7 @@ void require_different(const std::vector<Log>& logs) {
   }
 }
 
-/// What is weighed against noisy rows. `given`, `name`: whether, and what it is called.
+/// `robust`, `prior` and `pose` need noise and take no wheels. A pose with x and y needs centres as evidence.
 void require_weighing(const HoldProblem& problem) {
   struct Weighed {
     bool given;
@@ -146,9 +152,11 @@ void require_weighing(const HoldProblem& problem) {
   }
 }
 
+/// Kinds of noise that this problem takes; the contact's or the angle's is above 0.
 void require_noise(const HoldProblem& problem) {
   const Noise& noise = *problem.noise;
   rollfix::require_valid(noise);
+  // All other kinds must be 0.
   constexpr std::array<double Noise::*, 5> kTaken = {&Noise::contact, &Noise::angle, &Noise::slip, &Noise::radius,
                                                      &Noise::position};
   for (const NoiseKind& kind : kNoiseKinds) {
@@ -177,16 +185,18 @@ void require_noise(const HoldProblem& problem) {
 struct Body {
   Finger finger;
   const Log* log = nullptr;
-  double place = 0;  // how far x and y may be off, and a wheel's radius
+  double place = 0;  // how far x and y may be off, and a wheel's radius, length
   double angle = 0;  // how far its orientation may be off, radians; of what is round 0
   std::string name{};
 
+  /// Of its frame in the world at a row. Of what is round the heading does not matter.
   Pose pose(std::size_t row) const {
     const FingerRows& rows = log->fingers.front();
     return {rows.x[row], rows.y[row], finger.is_disk() ? 0 : rows.psi[row]};
   }
 };
 
+/// Fingers, then wheels. `place` is the error of x and y, of a wheel with that of its radius.
 std::vector<Body> bodies_of(const HoldProblem& problem, const HeldRows& rows, const std::vector<Log>& logs) {
   std::vector<Body> bodies;
   for (std::size_t k = 0; k < logs.size(); ++k) {
@@ -206,6 +216,8 @@ std::vector<Body> bodies_of(const HoldProblem& problem, const HeldRows& rows, co
   return bodies;
 }
 
+/// How deep a finger and a wheel are in each other, length; below 0 they are apart. Of two disks the sum of radii
+/// less the distance of their centres.
 double depth_of(const Finger& finger, const Pose& pose, const Finger& wheel, const Pose& pin) {
   if (finger.is_jaw()) return depth_of_overlap(pose, ConvexBody(wheel, pin));
   if (!finger.is_disk()) return depth_of_overlap(ConvexBody(finger, pose), ConvexBody(wheel, pin), 0);
@@ -216,12 +228,13 @@ double depth_of(const Finger& finger, const Pose& pose, const Finger& wheel, con
 double slack_of(const Body& finger, const Body& wheel, std::size_t row, bool has_noise) {
   const Pose at = finger.pose(row);
   const Pose pin = wheel.pose(row);
+  // An error of psi moves the pin, as the finger's frame has it, by that angle times the distance.
   const double turned = finger.angle * std::hypot(at.x - pin.x, at.y - pin.y);
   if (!has_noise) return finger.place + wheel.place + turned;
   return kTouchSigmas * std::hypot(finger.place, wheel.place, turned);
 }
 
-/// `wheel` is the second of them.
+/// Throws InputError, naming the deepest row, if a wheel and another body enter each other in any row.
 void require_apart(const Body& finger, const Body& wheel, bool has_noise) {
   std::size_t rows = 0;
   std::size_t deepest = 0;
@@ -247,6 +260,7 @@ void require_apart(const Body& finger, const Body& wheel, bool has_noise) {
 
 }  // namespace
 
+/// Each test names what was expected, what was found, and where.
 void require_valid(const HoldProblem& problem) {
   require_fingers(problem);
   for (const Log& log : problem.logs) require_log(log);
@@ -271,6 +285,7 @@ void require_clear(const HoldProblem& problem, const std::vector<Log>& logs) {
   }
 }
 
+/// Each wheel against all fingers and the wheels before it: the depth does not depend on the part.
 void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
   if (problem.may_overlap || problem.wheels.empty()) return;
   const HeldRows rows = held_rows(problem, logs);
@@ -328,6 +343,7 @@ const char* name_of(HoldCause cause) {
 
 namespace hold {
 
+/// One finger for all logs is number 0.
 const Finger& finger_of_log(const HoldProblem& problem, std::size_t log) {
   return problem.fingers[problem.fingers.size() == 1 ? 0 : log];
 }
@@ -355,6 +371,7 @@ HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number)
   HoldRoll roll;
   roll.is_jaw = finger.is_jaw();
   roll.is_wheel = number >= problem.logs.size();
+  // A wheel's psi is its encoder.
   roll.has_encoder = roll.is_wheel && !rows.psi.empty();
   if (!rows.psi.empty()) {
     roll.psi = {rows.psi.front(), rows.psi.back()};
@@ -368,6 +385,8 @@ HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number)
   return roll;
 }
 
+/// The logs, the fingers' shapes and a pose known beforehand, all mirrored at the y axis. `logs`: changed in place;
+/// those inside the problem stay.
 HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
   HoldProblem result = problem;
   for (std::size_t k = 0; k < logs.size(); ++k) {
@@ -379,6 +398,7 @@ HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
   return result;
 }
 
+/// Poses back: x and heading change their signs, and so do their covariances with y. Places s on the part stay.
 void out_of_mirror(HoldAnswer& answer) {
   const Eigen::Vector3d signs(-1, 1, -1);
   for (HoldPlacement& placement : answer.placements) {

@@ -23,7 +23,8 @@ Log& log_of(HoldProblem& problem, std::size_t number);
 /// What an answer says of a log, but for how far its contact travelled.
 HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number);
 
-/// The problem, and its aligned logs, as a mirror shows them: x has the other sign.
+/// The problem, and its aligned logs, as a mirror shows them: x has the other sign. A part that lies face down lies
+/// face up there.
 HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs);
 /// Its answer in the world as it is.
 void out_of_mirror(HoldAnswer& answer);

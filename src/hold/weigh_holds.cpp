@@ -28,9 +28,10 @@ constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start
 constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
 constexpr int kNudges = 4;                // to both sides, of a contact's error each, ...
 constexpr double kFitsNowhere = 1e-6;     // ... where all rows are less probable
-constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
-constexpr double kWideHold = 0.1;         // of the perimeter: no place is known no better, as of one finger
+constexpr double kHopeless = 60;   // an optimum that costs so much more than the best is about exp(-30) as likely
+constexpr double kWideHold = 0.1;  // of the perimeter: a place that is known no better is a continuum
 
+/// One run: optima of all sets, the posterior's modes about them, and placements of the probable ones.
 class HoldWeighing {
  public:
   HoldWeighing(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched, BoxSearch& search,
@@ -44,8 +45,11 @@ class HoldWeighing {
         wheels_(wheels),
         answer_(answer) {}
 
+  /// Fills the answer's placements, fit, evidence and what was not listed. `found`: sets, of which placements have
+  /// the extents.
   void run(const std::vector<FoundSet>& found) {
     const HeldRows all = averaged(rows_);
+    // Fits by the rows searched with are quick; those by all rows, averaged, decide.
     const HoldFit few(problem_.part, searched_, wheels_);
     const HoldFit fit(problem_.part, all, wheels_);
     std::vector<HeldSet> known;
@@ -56,10 +60,12 @@ class HoldWeighing {
       return;
     }
     std::vector<HoldMode> modes = modes_about(fit, problem_.part, optima, known);
+    // At least so many sets have no mode that counts. A set may have several modes.
     answer_.improbable = found.size() - std::min(found.size(), modes.size());
     drop_overlaps(modes, all);
     modes = by_poses(fit, modes);
     if (modes.empty()) return;
+    // Weights over their sum, the largest taken out against underflow.
     double most = modes.front().log_weight;
     for (const HoldMode& mode : modes) most = std::max(most, mode.log_weight);
     double sum = 0;
@@ -77,6 +83,7 @@ class HoldWeighing {
       if (!are_within(placement)) placement = posterior_of(mode, middle_of(mode, placement), fit, known[mode.set]);
       placement.probability = probability;
       TouchFit one = fit_of(fit, mode.best);
+      // The placement that fits best speaks for all: one that fits is no contradiction.
       one.p = std::min(one.p, fit.p_of_oddest(mode.best));
       if (!answer_.fit || one.p > answer_.fit->p) answer_.fit = one;
       answer_.placements.push_back(std::move(placement));
@@ -95,10 +102,13 @@ class HoldWeighing {
   void add_at_a_glance(const HoldFit& fit, const Optimum& best, const std::vector<HeldSet>& sets) {
     answer_.placements.push_back(described(fit, problem_.part, best.state, sets[best.set]));
     answer_.fit = fit_of(fit, best.state);
+    // Without volumes: at a glance fits are compared by their squares.
     answer_.log_evidence = -0.5 * best.state.square;
     if (!fit.has_stretches() && fit.wheels() == 0) return;
+    // Only the scales of lengths get a standard deviation, for hold_mistakes.cpp.
     UnknownsMatrix information = fit.reduced(best.state).matrix;
-    information.diagonal().array() += 1 / (boundary_.perimeter * boundary_.perimeter);  // where nothing tells a place
+    information.diagonal().array() +=
+        1 / (boundary_.perimeter * boundary_.perimeter);  // keeps it invertible where a place is not determined
     const UnknownsMatrix covariance = information.inverse();
     for (std::size_t k = 0; k < fit.fingers() + fit.wheels(); ++k) {
       HoldContact& contact = answer_.placements.back().contacts[k];
@@ -109,13 +119,14 @@ class HoldWeighing {
     }
   }
 
-  /// What fingers would have to be in each other for goes.
+  /// Drops nodes at which fingers must enter each other, and modes without any other node, which are counted.
   void drop_overlaps(std::vector<HoldMode>& modes, const HeldRows& rows) {
     const FingersApart apart(problem_, rows);
     const auto is_possible = [&](const HoldNode& node) {
       std::vector<Interval> arcs;
       for (std::size_t k = 0; k < rows.fingers(); ++k) {
         const auto i = static_cast<Eigen::Index>(k);
+        // Only what overlaps all over the node's range is impossible.
         const double off = kTouchSigmas * std::sqrt(node.covariance(i, i));
         arcs.push_back({node.state.unknowns(i) - off, node.state.unknowns(i) + off});
       }
@@ -133,9 +144,10 @@ class HoldWeighing {
     return result;
   }
 
-  /// Of what was said of the first contact and of the pose.
+  /// Probability that a placement is as far from what was known of the first contact and of the pose; 1 without such.
   double prior_p(const HeldState& state) const {
     const bool has_place = rows_.any_place && problem_.pose && std::isfinite(problem_.pose->place_sd);
+    // As many numbers were known beforehand: their squares together are a chi-square.
     const int numbers = (problem_.prior ? 1 : 0) + (problem_.pose ? 1 : 0) + (has_place ? 2 : 0);
     return numbers == 0 ? 1 : boost::math::gamma_q(0.5 * numbers, 0.5 * state.prior_square);
   }
@@ -145,6 +157,7 @@ class HoldWeighing {
     HoldPlacement placement = described(fit, problem_.part, shown, set);
     add_posterior(placement, fit, problem_.part, mode);
     for (const HoldContact& contact : placement.contacts) {
+      // A 95 % interval longer than a tenth of the perimeter is no place.
       placement.continuum = placement.continuum || contact.interval.width() > kWideHold * boundary_.perimeter;
     }
     return placement;
@@ -159,6 +172,7 @@ class HoldWeighing {
   /// The node that is nearest to all means.
   const HeldState& middle_of(const HoldMode& mode, const HoldPlacement& placement) const {
     const auto off = [&](const HoldNode& node) {
+      // In standard deviations of each first contact.
       double square = 0;
       for (std::size_t k = 0; k < problem_.logs.size(); ++k) {
         const HoldContact& contact = placement.contacts[k];
@@ -180,6 +194,7 @@ class HoldWeighing {
         rough.push_back({few.fit(few.wheels() > 0 ? few.afresh(start.unknowns) : start), k});
       }
     }
+    // The most promising first, so that the first one that costs too much ends the loop below.
     std::stable_sort(rough.begin(), rough.end(),
                      [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
     if (at_a_glance_ && rough.size() > kGlanceOptima) rough.resize(kGlanceOptima);
@@ -187,7 +202,10 @@ class HoldWeighing {
     std::vector<const Optimum*> tried;
     double least = std::numeric_limits<double>::infinity();
     for (const Optimum& one : rough) {
+      // The costs are by few rows, and by all rows they are larger, but for averages of rows. Neither this optimum nor
+      // those behind it come near the best.
       if (one.state.cost > least + kHopeless) break;
+      // The same place, before or after the fit by all rows, is fitted once.
       const auto is_known = [&](const Optimum& other) {
         return other.set == one.set && are_alike(other.state, one.state, fit);
       };
@@ -195,12 +213,15 @@ class HoldWeighing {
       if (std::ranges::any_of(optima, is_known)) continue;
       tried.push_back(&one);
       HeldState state = fit.fit(fit.afresh(one.state.unknowns));
+      // Nudges are only for a set in which no place fits yet.
       const bool is_found = std::ranges::any_of(
           optima, [&](const Optimum& other) { return other.set == one.set && fits(fit, other.state); });
       if (fit.wheels() > 0 && !is_found && fits(few, one.state) && !fits(fit, state)) {
+        // Few rows fit here, and all rows don't.
         state = nudged(fit, one.state.unknowns, state);
       }
       const std::size_t set = set_with(found, state, one.set);
+      // The fit has left all sets: its place was excluded by the search.
       if (set == found.size()) continue;
       least = std::min(least, state.cost);
       optima.push_back({std::move(state), set});
@@ -218,6 +239,7 @@ class HoldWeighing {
     std::vector<HeldState> starts;
     for (int k = -kNudges; k <= kNudges; ++k) {
       Unknowns about = unknowns;
+      // Unknown 0: the only finger's first contact.
       about(0) += k * fit.rows().errors[0].travel;
       starts.push_back(fit.afresh(about));
     }
@@ -228,6 +250,8 @@ class HoldWeighing {
   /// Of many places all over a set those that fit best as they are, no two of them close together, and some that are
   /// spread evenly.
   std::vector<HeldState> starts_in(const FoundSet& found, std::size_t sets, const HoldFit& few) {
+    // Looks and starts are shared out over the sets. With full care each set gets kStarts of both at least, as far as
+    // it has boxes.
     const std::size_t looks = std::min(found.boxes.size(), at_a_glance_ ? std::max<std::size_t>(1, kGlanceLooks / sets)
                                                                         : std::max(kStarts, kLooks / sets));
     const std::size_t most = at_a_glance_ ? kGlanceStarts : std::max(kStarts, kAllStarts / sets);
@@ -236,6 +260,7 @@ class HoldWeighing {
     std::vector<HeldState> starts;
     for (std::size_t look = 0; look < looks; ++look) {
       states.push_back(few.at(middle_of_box(search_, found, look, looks)));
+      // Evenly spread ones, whatever they cost.
       if (look % stride == 0 && !at_a_glance_) starts.push_back(states.back());
     }
     std::ranges::stable_sort(states, {}, &HeldState::cost);
@@ -250,7 +275,7 @@ class HoldWeighing {
     return starts;
   }
 
-  /// As a set is wide.
+  /// Two states that differ by a small share of the set's width in every first contact.
   bool are_close(const HeldState& one, const HeldState& other, const HeldSet& set) const {
     for (std::size_t k = 0; k < set.extent.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -260,7 +285,7 @@ class HoldWeighing {
     return true;
   }
 
-  /// Nearer to each other than contacts are measured.
+  /// Two states that differ by less than contacts are measured to: one optimum.
   bool are_alike(const HeldState& one, const HeldState& other, const HoldFit& fit) const {
     for (std::size_t k = 0; k < fit.fingers(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -270,7 +295,7 @@ class HoldWeighing {
     return true;
   }
 
-  /// The set that holds a state, first of all this one; as many as there are: none.
+  /// The number of a set that holds a state, `first` if it does; found.size() if none does.
   std::size_t set_with(const std::vector<FoundSet>& found, const HeldState& state, std::size_t first) const {
     double slack = 0;
     for (const HeldErrors& errors : rows_.errors) slack = std::max(slack, errors.travel);
@@ -294,6 +319,7 @@ class HoldWeighing {
 }  // namespace
 
 std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std::size_t look, std::size_t looks) {
+  // In the middle of its share of the boxes.
   const Box& box = found.boxes[(2 * look + 1) * found.boxes.size() / (2 * looks)];
   std::vector<double> start;
   for (std::size_t k = 0; k < search.fingers(); ++k) start.push_back(search.tree(k).arc(box[k]).middle());

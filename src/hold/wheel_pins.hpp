@@ -19,8 +19,10 @@ namespace rollfix::hold {
 /// What an encoder's zero can be: some intervals, modulo a period if there is one. Nothing known: all.
 class SpinSet {
  public:
+  /// `period`: 0: none, as of an open part. All is possible at first.
   explicit SpinSet(double period) : period_(period) {}
 
+  /// No zero suits all instants seen so far.
   bool is_empty() const { return intervals_ && intervals_->empty(); }
 
   /// What this and another set of intervals have in common.
@@ -37,6 +39,7 @@ class SpinSet {
   }
 
  private:
+  /// Both, shifted by every number of periods at which they overlap.
   void add_common(const Interval& one, const Interval& other, std::vector<Interval>& common) const {
     const double first = period_ > 0 ? std::ceil((one.lo - other.hi) / period_) : 0;
     const double last = period_ > 0 ? std::floor((one.hi - other.lo) / period_) : 0;
@@ -60,8 +63,8 @@ class SpinSet {
     return result;
   }
 
-  double period_ = 0;
-  std::optional<std::vector<Interval>> intervals_;
+  double period_ = 0;                               // radians
+  std::optional<std::vector<Interval>> intervals_;  // in order, apart; none: anything
 };
 
 /// The place of a wheel's pin, touching the part, that is nearest to a point of the part's frame.
@@ -77,13 +80,14 @@ struct NearPin {
 
 /// A stretch of the path: where the wheel touches on it, and how the tangents point.
 struct PinStretch {
-  Interval s;
-  Interval angle;
+  Interval s;      // one place at a corner
+  Interval angle;  // radians, unwrapped along the boundary
 };
 
 /// Where the pin of a wheel can be while it touches a part and enters it nowhere: the boundary's offset.
 class WheelPath {
  public:
+  /// `radius`: r > 0, in the part's unit. A wheel that fits nowhere has an empty path.
   WheelPath(const Part& part, double radius);
   WheelPath(const WheelPath&) = delete;
   WheelPath& operator=(const WheelPath&) = delete;
@@ -95,31 +99,35 @@ class WheelPath {
   /// All of the boundary.
   Interval whole() const { return path_.part().boundary().full_arc(); }
 
+  /// Of all places: by branch and bound.
   NearPin nearest(const Vec2& point);
-  /// The same, downhill from where another row's pin was, if that is near: of fits, which ask for it often.
+  /// The same for fits, which ask for it often: from `from`, where it was found last, if a foot is close to there.
+  /// `from` becomes the place found.
   NearPin nearest(const Vec2& point, std::optional<touch::PathPlace>& from);
   /// All of the path within `reach` of a point, in pieces of about that length; nothing where they are too many.
   std::optional<std::vector<PinStretch>> within(const Vec2& point, double reach);
 
  private:
+  /// A point of the part's frame as touch/nearest.hpp takes it: a place without a normal.
   touch::InPart seen(const Vec2& point) const;
+  /// A place of the path, as seen from a point near it.
   NearPin described(const Vec2& point, const touch::PathPlace& place) const;
 
-  touch::CentrePath path_;
+  touch::CentrePath path_;               // p + r n, with arcs about convex corners
   std::optional<touch::PathTree> tree_;  // of a path that is not empty
-  double unit_ = 1;
-  double spin_period_ = 0;
+  double unit_ = 1;                      // length to which nearest places are settled
+  double spin_period_ = 0;               // radians
 };
 
 using WheelPaths = std::vector<std::unique_ptr<WheelPath>>;  // of each wheel; nearest places need not const
 
 /// Where a finger's contact is at an instant, in the part's frame and in the world, and how far off that can be.
 struct HeldFrom {
-  Vec2 point = Vec2::Zero();
-  Vec2 at = Vec2::Zero();
-  double reach = 0;    // length: the arc's, and of what was measured
-  double place = 0;    // of it what was measured
-  double heading = 0;  // one of the part's, radians, unwrapped over all instants
+  Vec2 point = Vec2::Zero();  // in the part's frame: the middle of the disc that holds the contact
+  Vec2 at = Vec2::Zero();     // in the world, as measured
+  double reach = 0;           // length: the arc's, and of what was measured
+  double place = 0;           // of it what was measured
+  double heading = 0;         // one of the part's, radians, unwrapped over all instants
 };
 
 /// What of a wheel suits some arc of a finger's contacts at one instant.
@@ -150,12 +158,17 @@ class PinSearch {
                  PinFound* found);
 
  private:
+  /// One call of may_touch, with what does not change over its headings.
   struct Question;
+  /// Whether the wheel can touch at headings within `half` of `middle`; halves them where that helps. `left`: looks
+  /// that remain of kMostLooks.
   bool look(const Question& question, double middle, double half, std::size_t& left);
+  /// Whether places of the path within reach of x suit a squeeze; into `found` those that do.
   bool keep_touching(const Question& question, double middle, double half, const Vec2& point, double reach);
+  /// How far off an encoder can be at an instant, radians.
   double spin_slack(std::size_t wheel, std::size_t instant) const;
 
-  bool has_noise_;
+  bool has_noise_;  // errors are standard deviations; else they are tolerances
   std::vector<HeldWheel> wheels_;
   std::vector<std::vector<HeldPin>> pins_;  // of each instant, of each wheel
   const WheelPaths& paths_;
