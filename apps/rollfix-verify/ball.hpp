@@ -13,6 +13,7 @@ inline constexpr slong kPrecision = 128;  // bits
 inline constexpr slong kTerms = 14;       // of a series: x^0 to x^13, the last of which bounds what is left out
 
 /// While one of these lives series keep so many terms only: where no more are asked for.
+/// The number of terms belongs to the thread; it is restored at the end of the scope.
 class FewerTerms {
  public:
   explicit FewerTerms(slong count) : before_(kept()) { kept() = count; }
@@ -29,8 +30,10 @@ class FewerTerms {
   slong before_;
 };
 
+/// A real number as a middle and a radius: an interval that holds the exact number. Not finite: nothing is known of it.
 class Ball {
  public:
+  /// The exact number 0, or a double.
   Ball() { arb_init(value_); }
   Ball(double value) : Ball() { arb_set_d(value_, value); }  // NOLINT(google-explicit-constructor): exact
   Ball(const Ball& other) : Ball() { arb_set(value_, other.value_); }
@@ -44,14 +47,18 @@ class Ball {
   arb_ptr get() { return value_; }
   arb_srcptr get() const { return value_; }
 
+  // Comparisons are of the whole ball: false says that it is not certain, so that neither may be true of two balls.
   bool is_finite() const { return arb_is_finite(value_) != 0; }
   bool is_above(const Ball& other) const { return arb_gt(value_, other.value_) != 0; }  // for certain
   bool is_below(const Ball& other) const { return arb_lt(value_, other.value_) != 0; }
+  /// The middle rounded to a double: about where the number is. Proves nothing by itself.
   double middle() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
+  /// Bounds on the whole ball, rounded outwards.
   double lower() const { return end(arb_get_lbound_arf, ARF_RND_FLOOR); }
   double upper() const { return end(arb_get_ubound_arf, ARF_RND_CEIL); }
 
  private:
+  /// One end of the ball as a double, rounded in the direction that keeps it a bound.
   double end(void (*bound)(arf_t, const arb_t, slong), arf_rnd_t rounding) const {
     arf_t limit;
     arf_init(limit);
@@ -83,6 +90,7 @@ inline Ball sqrt(const Ball& a) { return made<Ball>(arb_sqrt, a.get(), kPrecisio
 inline Ball length_of(const Ball& x, const Ball& y) {
   return made<Ball>(arb_sqrtpos, (x * x + y * y).get(), kPrecision);
 }
+// The ball of a function holds its values at all numbers in the argument.
 inline Ball sin(const Ball& a) { return made<Ball>(arb_sin, a.get(), kPrecision); }
 inline Ball cos(const Ball& a) { return made<Ball>(arb_cos, a.get(), kPrecision); }
 inline Ball atan2(const Ball& y, const Ball& x) { return made<Ball>(arb_atan2, y.get(), x.get(), kPrecision); }
@@ -133,11 +141,13 @@ class Series {
 
   arb_poly_struct* get() { return value_; }
   const arb_poly_struct* get() const { return value_; }
+  /// The coefficient of x^power; 0 beyond the last one.
   Ball operator[](slong power) const {
     Ball coefficient;
     arb_poly_get_coeff_arb(coefficient.get(), value_, power);
     return coefficient;
   }
+  /// Sets the coefficient of x^power; the series grows where that is needed.
   void set(slong power, const Ball& coefficient) { arb_poly_set_coeff_arb(value_, power, coefficient.get()); }
 
  private:
@@ -150,6 +160,7 @@ Series cut(Function function, const Arguments&... arguments) {
   return made<Series>(function, arguments..., FewerTerms::kept(), kPrecision);
 }
 
+// A sum keeps all terms; a product and what follows keep as many as FewerTerms says, from x^0 on.
 inline Series operator+(const Series& a, const Series& b) {
   return made<Series>(arb_poly_add, a.get(), b.get(), kPrecision);
 }
@@ -185,6 +196,7 @@ inline Series with_remainder(Series thin, const Series& wide, slong degree) {
   return thin;
 }
 
+/// a(x): holds the values at all numbers in x.
 inline Ball value(const Series& a, const Ball& x) {
   return made<Ball>(arb_poly_evaluate_horner, a.get(), x.get(), kPrecision);
 }

@@ -12,8 +12,8 @@ namespace rollfix_verify {
 /// A place on the boundary. On a closed one curves are counted on from lap to lap, and so are s and the angle.
 struct Place {
   long curve = 0;
-  Ball u;
-  Ball s;
+  Ball u;      // the curve's parameter
+  Ball s;      // arc length from the first point
   Ball angle;  // of the tangent, from that at s = 0
 };
 
@@ -94,19 +94,24 @@ class Boundary {
   std::size_t index(long curve) const;
   long lap(long curve) const { return (curve - static_cast<long>(index(curve))) / curves(); }
   const Formula& formula(long curve) const { return curves_[index(curve)]; }
+  /// Appends pieces for the parameters from lo to hi of a curve.
   void add_pieces(std::size_t curve, double lo, double hi, int depth);
+  /// A piece by itself, not yet behind others.
   static Piece piece_between(const Formula& formula, double lo, double hi);
+  /// Puts a piece where those before it end.
   void append(std::size_t curve, Piece piece);
+  /// The joint at a curve's end: jump, rest and gap.
   void join(std::size_t curve);
+  /// The place of a parameter that is on the piece.
   Place on_piece(std::size_t curve, const Piece& piece, const Ball& u) const;
 
   std::vector<Formula> curves_;
   bool closed_;
   std::vector<std::vector<Piece>> pieces_;  // of each curve
   std::vector<Place> starts_;               // of each curve, and the end of all
-  std::vector<Ball> jumps_;
-  std::vector<bool> at_rest_;
-  double largest_gap_ = 0;
+  std::vector<Ball> jumps_;                 // at each curve's end, radians
+  std::vector<bool> at_rest_;               // likewise: a curve has no speed there
+  double largest_gap_ = 0;                  // of neighbouring curves, length
   std::vector<double> laps_ = {0};
 };
 

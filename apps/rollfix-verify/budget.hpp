@@ -24,13 +24,14 @@ class Budget {
   static void spend(double work) {
     if (!((left() -= work) >= 0)) throw OutOfBudget();
   }
+  /// What may still be spent; infinite while no budget lives. Each thread has its own.
   static double& left() {
     thread_local double work = std::numeric_limits<double>::infinity();
     return work;
   }
 
  private:
-  double before_;
+  double before_;  // what was left of the budget around this one
 };
 
 }  // namespace rollfix_verify

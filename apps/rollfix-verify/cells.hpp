@@ -16,7 +16,7 @@ inline constexpr double kClear = 1e-12;
 /// A roll from a start by the length asked, and how far its turn is off.
 struct Row {
   Place start;
-  Place end;
+  Place end;          // of the roll, s + L
   Ball f;             // the turn along it less the one asked
   Series from_start;  // the curvature ahead of both
   Series from_end;
@@ -27,8 +27,8 @@ bool spans_corner(const Boundary& boundary, const Row& from, const Row& to);
 
 /// What f is on all the starts from one row to the next.
 struct Range {
-  bool known = false;
-  int slope = 0;  // +-1: f rises, falls all the way
+  bool known = false;  // false: nothing is said of f
+  int slope = 0;       // +-1: f rises, falls all the way
   bool corner = false;
   std::vector<Ball> parts;  // f is in one of these at each start; several where it jumps at a concave corner
   double blur = 0;          // what f changes by as places are rounded
@@ -77,14 +77,16 @@ class OneReading {
         period_(document.period()) {}
 
   struct Claim;
+  /// The claim by its word. Throws std::domain_error where f at the rows already contradicts it.
   Claim claim_of(const std::string& kind, const Row& from, const Row& to) const;
+  /// Whether it is proved on a part of the cell.
   bool holds(const Claim& claim, const Range& range, const Row& from, const Row& to) const;
 
   const Document& document_;
   const Boundary& boundary_;
-  Ball length_;
-  Ball turn_;
-  double tolerance_;
+  Ball length_;       // L
+  Ball turn_;         // theta, radians
+  double tolerance_;  // radians
   double period_;
 };
 
@@ -129,12 +131,14 @@ class Remains {
     bool is_corner = false;
   };
 
+  /// False: the part has to be halved.
   bool settles(const Rows& from, const Rows& to);
+  /// Excluded by some reading, near to fitting, a corner, or not known.
   Standing standing(const Rows& from, const Rows& to) const;
 
   const Document& document_;
   Readings readings_;
-  double near_;
+  double near_;  // in tolerances
   std::vector<Part> parts_;
   std::size_t pieces_ = 0;    // as long as nothing is round
   bool is_first_ = true;      // nothing was added yet

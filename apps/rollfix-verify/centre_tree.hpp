@@ -68,12 +68,18 @@ class CentreTree {
   std::vector<Interval> angles_at(long curve, const Ball& pivots, const Considered& considered) const;
 
  private:
+  /// Nodes of one curve, or of what is considered of it.
   void add_curve(long curve, const std::optional<Considered>& considered);
+  /// A node, or several where one has no bounds.
   void add_stretch(long curve, const Interval& u, int depth);
+  /// Nodes of the pivot at a curve's end, if there is one.
   void add_corner(long curve, const std::optional<Considered>& considered);
+  /// Whether a place is on one of the arcs.
   bool is_on(double s, const std::vector<Interval>& arcs) const;
   int add(Node node);
+  /// A node of the pivot at a curve's end over some angles.
   Node corner(long curve, const Interval& angles) const;
+  /// The root of a tree over nodes from the one to before the other.
   int join(std::size_t from, std::size_t to);
 
   const Boundary& boundary_;

@@ -6,6 +6,9 @@
 #include "budget.hpp"
 #include "document.hpp"
 
+// From the text of a certificate to the verdict's text.
+// Idea: the question is repeated in the certificate's own numbers, so that the user can compare it with his. The schema
+// says who checks; each check spends from one budget of work and refuses by an exception.
 namespace rollfix_verify {
 namespace {
 
@@ -20,11 +23,13 @@ constexpr const char* kTwoFingers = "rollfix/pair-certificate/1";
 constexpr const char* kTouches = "rollfix/touch-certificate/1";
 constexpr const char* kHolds = "rollfix/hold-certificate/1";
 
+/// Name, kind and length of the outline; the name is checked by nothing.
 std::string part_of(const Json& json) {
   return "part " + plain(json.at("part")) + (json.at("closed").get<bool>() ? ", closed" : ", open") + ", perimeter " +
          plain(json.at("perimeter")) + "\n";
 }
 
+/// Both ends of an interval.
 std::string between(const Json& limits) { return plain(limits.at(0)) + " to " + plain(limits.at(1)); }
 
 /// Of a touch, or of a roll's first contact.
@@ -40,6 +45,7 @@ std::string contact_text(const Json& touch) {
   return text;
 }
 
+/// Of a roll: each reading with its tolerance behind them.
 std::string readings_text(const Json& roll) {
   std::string text;
   for (const Json& reading : roll.at("readings")) {
@@ -48,6 +54,7 @@ std::string readings_text(const Json& roll) {
   return text + " rad within " + plain(roll.at("within"));
 }
 
+/// Of touches and rolls: what was measured, and each stated set of poses.
 std::string touches_question(const Json& json) {
   std::string text = part_of(json);
   if (json.at("mirrored").get<bool>()) text += "face down\n";
@@ -59,6 +66,7 @@ std::string touches_question(const Json& json) {
   for (const Json& touch : json.at("touches")) text += "touch at " + contact_text(touch) + "\n";
   for (const Json& one : json.at("poses")) {
     text += one.at("listed").get<bool>() ? "pose " : "left out: pose ";
+    // A set may have a pose that fits, an extent, or both.
     const bool fits = one.contains("pose");
     if (fits) {
       const Json& pose = one.at("pose");
@@ -74,10 +82,12 @@ std::string touches_question(const Json& json) {
   return text;
 }
 
+/// A tolerance that may be missing.
 std::string or_nothing(const Json& tolerance, const std::string& what, const std::string& unit) {
   return tolerance.is_null() ? "" : ", " + what + " " + plain(tolerance) + unit;
 }
 
+/// Of a hold: fingers, wheels, what was measured at each instant, and each set of first contacts.
 std::string holds_question(const Json& json) {
   std::string text = part_of(json);
   if (json.at("mirrored").get<bool>()) text += "face down\n";
@@ -106,6 +116,7 @@ std::string holds_question(const Json& json) {
       if (pin.contains("spin")) text += ", turned " + plain(pin.at("spin")) + " rad";
       text += ";";
     }
+    // The last separator becomes the end of the line.
     text.back() = '\n';
   }
   for (const Json& set : json.at("sets")) {
@@ -116,6 +127,7 @@ std::string holds_question(const Json& json) {
   return text;
 }
 
+/// By the schema; for one finger and two: readings, facing and tolerance.
 std::string question_of(const Json& json, const std::string& schema) {
   if (schema == kTouches) return touches_question(json);
   if (schema == kHolds) return holds_question(json);
@@ -131,10 +143,12 @@ std::string question_of(const Json& json, const std::string& schema) {
   return text + "tolerance " + plain(json.at("tolerance")) + " rad\n";
 }
 
+/// "1 cell", "2 cells".
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+/// Three digits.
 std::string percent_of(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", 100 * share);
@@ -146,11 +160,14 @@ std::string described_poses(const Verdict& verdict) {
   std::string found = std::to_string(verdict.placements) + (verdict.placements == 1 ? " set" : " sets") + " of poses";
   if (verdict.left_out > 0) found += " and " + std::to_string(verdict.left_out) + " that the answer leaves out";
   if (verdict.inside > 0) found += ", " + counted(verdict.inside, "more pose") + " in them";
+  // What is not proved stands first, before what was found.
   if (verdict.is_complete()) return "proved: " + found + ", nothing else\n" + verdict.question;
   std::string but;
+  // Left open by the certificate itself.
   if (verdict.open > 0) {
     but = "poses with " + verdict.open_contact + " on " + percent_of(verdict.share) + " % of the boundary";
   }
+  // Looked at down to the smallest size.
   if (verdict.unproved > 0) {
     but += std::string(but.empty() ? "" : " and ") + std::to_string(verdict.unproved) +
            (verdict.unproved == 1 ? " box" : " boxes") + " of poses within rounding of the tolerance";
@@ -177,8 +194,11 @@ std::string described_holds(const Verdict& verdict) {
 
 }  // namespace
 
+/// A text that is no certificate of a known schema throws; a certificate that is wrong, or that costs too much, is
+/// refused in the verdict.
 Verdict check(const std::string& text) {
   Verdict refused;
+  // Before anything is parsed: the budget of work begins only behind that.
   if (text.size() > kMostBytes) {
     refused.refusal = "not decided: the certificate is too long";
     return refused;
@@ -190,10 +210,13 @@ Verdict check(const std::string& text) {
     throw std::runtime_error(std::string("it is no certificate of version ") + kOneFinger + ", " + kTwoFingers + ", " +
                              kTouches + " or " + kHolds);
   }
+  // Before the budget: a certificate that lacks a field of the question throws, which is bad input and no refusal.
   const std::string question = question_of(json, schema);
   try {
+    // All that follows spends from it.
     const Budget budget(kMostWork);
     const Document document(json);
+    // The others check their outline by themselves, for they have no tolerance in the document.
     if (schema == kOneFinger || schema == kTwoFingers) document.check();
     Verdict verdict = schema == kOneFinger    ? check_one_finger(document)
                       : schema == kTwoFingers ? check_two_fingers(document)
@@ -209,6 +232,7 @@ Verdict check(const std::string& text) {
   return refused;
 }
 
+/// The first line has the verdict, the others the question.
 std::string described(const Verdict& verdict) {
   if (!verdict.refusal.empty()) return "refused: " + verdict.refusal + "\n";
   if (verdict.of_touches) return described_poses(verdict);

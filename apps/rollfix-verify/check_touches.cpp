@@ -15,11 +15,15 @@
 #include "pose_search.hpp"
 #include "roll_starts.hpp"
 
-// Notation: a pose X, phi has the part's point c at X + R(phi) c; q_i is a touch's measured centre, tau_i the tangent
-// by its normal; p + r n the finger's centre where it touches at p.
-// What a certificate of touches claims, docs/certificates.md: each stated pose fits (`check_set`), and every pose that
-// fits is in a stated set (`PoseSearch`). A roll is its first contact, on what its readings leave (`RollStarts`); rolls
-// stand before touches. A part that lies face down is looked at in the mirror x = -x.
+// Notation:
+//   X, phi          a pose of the part, which has the part's point c at X + R(phi) c
+//   q_i, tau_i      a touch's measured centre; the part's tangent in the world, by the measured normal
+//   p + r n         the finger's centre where it touches at p: n the part's outward normal, r the finger's radius
+//   off             a residual as a share of its tolerance
+// Follows docs/certificates.md, "Touches": P1 is `cover`, P2 is `check_set`, P3 is Document.
+// Idea: each stated pose is shown to fit, and `PoseSearch` shows that every pose that fits is in a stated set. A roll
+// is its first contact, on what its readings leave (`RollStarts`); rolls stand before touches. A part that lies face
+// down is looked at in the mirror x = -x.
 namespace rollfix_verify {
 namespace {
 
@@ -36,11 +40,11 @@ struct TouchQuestion {
   explicit TouchQuestion(const Document& document);
 
   bool is_mirrored = false;
-  double radius = 0;
-  std::optional<Considered> considered;
-  std::size_t rolls = 0;             // the first ones of:
-  std::vector<SoughtTouch> touches;  // first contacts of rolls, then touches
-  bool any_place = true;             // false: nothing tells where the part is
+  double radius = 0;                     // of the finger; 0: a point
+  std::optional<Considered> considered;  // where contacts are looked for; none: everywhere
+  std::size_t rolls = 0;                 // the first ones of:
+  std::vector<SoughtTouch> touches;      // first contacts of rolls, then touches
+  bool any_place = true;                 // false: nothing tells where the part is
   std::vector<StatedSet> sets;
 
   double mirrored(double value) const { return is_mirrored ? -value : value; }
@@ -51,13 +55,18 @@ struct TouchQuestion {
 
  private:
   void read_contact(const Json& stated, bool is_roll);
+  /// One coordinate of a pose.
   double place_of(const Json& stated) const;
+  /// An extent of one coordinate.
   Interval places_of(const Json& stated) const;
+  /// One of `poses`.
   StatedSet set_of(const Json& stated) const;
 };
 
+/// Reads the question and the stated sets: rolls first, then touches, as contacts of a pose are listed.
 TouchQuestion::TouchQuestion(const Document& document)
     : is_mirrored(document.json().at("mirrored").get<bool>()), radius(number(document.json().at("radius"))) {
+  // Negated, so that NaN is refused.
   if (!(radius >= 0)) refuse("a finger whose radius is below 0");
   considered = rollfix_verify::considered(document.json().at("reach"), document.period());
   if (document.json().contains("rolls")) {
@@ -78,6 +87,7 @@ void TouchQuestion::read_contact(const Json& stated, bool is_roll) {
     touch.x = mirrored(number(stated.at("at").at(0)));
     touch.y = number(stated.at("at").at(1));
   }
+  // A normal alone needs no tolerance of length; rolls state one in any case.
   if (touch.has_place || is_roll) touch.length = number(stated.at("tolerance").at(0));
   touch.angle = number(stated.at("tolerance").at(1));
   if (is_roll && !stated.contains("normal")) refuse("a roll without a normal");
@@ -86,6 +96,7 @@ void TouchQuestion::read_contact(const Json& stated, bool is_roll) {
     const double normal = number(stated.at("normal"));
     if (!(std::abs(normal) <= kMostAngle)) refuse("an angle of too many turns");
     const Ball quarter = 0.25 * full_turn();
+    // The part's tangent is a quarter turn ahead of its outward normal a; in the mirror a is pi - a.
     const Ball tangent = is_mirrored ? 3.0 * quarter - normal : Ball(normal) + quarter;
     touch.tangent = to_nearest_turn(tangent).middle();
   }
@@ -99,6 +110,7 @@ double TouchQuestion::place_of(const Json& stated) const {
   return 0;
 }
 
+/// Unbounded where nothing tells places.
 Interval TouchQuestion::places_of(const Json& stated) const {
   if (any_place) return interval(stated);
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -107,6 +119,7 @@ Interval TouchQuestion::places_of(const Json& stated) const {
   return {-kFar, kFar};
 }
 
+/// A listed set has a pose; a set without a pose has an extent.
 StatedSet TouchQuestion::set_of(const Json& stated) const {
   StatedSet set;
   if (stated.contains("extent")) {
@@ -114,6 +127,7 @@ StatedSet TouchQuestion::set_of(const Json& stated) const {
     set.extent = {mirrored(places_of(extent.at(0))), places_of(extent.at(1)), mirrored(interval(extent.at(2)))};
   }
   if (!stated.contains("pose")) {
+    // What is neither a pose nor an extent claims nothing.
     if (stated.at("listed").get<bool>() || !set.extent) refuse("a set without a pose");
     return set;
   }
@@ -127,6 +141,7 @@ StatedSet TouchQuestion::set_of(const Json& stated) const {
 constexpr double kLeastLength = 1e-9;
 constexpr double kLeastAngle = 1e-9;
 
+/// Checks one certificate of touches and rolls; used once. Every refusal is a std::domain_error with its reason.
 class Touches {
  public:
   explicit Touches(const Document& document)
@@ -136,16 +151,19 @@ class Touches {
         question_(document),
         touches_(question_.touches) {}
 
+  /// P3 first, then P2 of each stated pose, last P1 by the search.
   Verdict check() {
     document_.check_outline();
     require_tolerances();
     check_reach();
+    // Without a root the finger has no place on the part, and P1 needs no search.
     CentreTree tree(boundary_, question_.radius, question_.considered);
     if (tree.root() >= 0) read_readings(tree);
     Verdict verdict;
     verdict.of_touches = true;
     for (std::size_t k = 0; k < question_.sets.size(); ++k) check_set(tree, k);
     for (const Json& stated : document_.json().at("poses")) {
+      // A pose without an extent is in another one's set.
       ++(!stated.contains("extent")        ? verdict.inside
          : stated.at("listed").get<bool>() ? verdict.placements
                                            : verdict.left_out);
@@ -164,6 +182,7 @@ class Touches {
         readings.push_back({document_.length(one.at("length")), Document::turn(one.at("turn"))});
       }
       if (readings.empty()) refuse("a roll without readings");
+      // In radians, the same for all readings of the roll.
       const double within = number(stated.at("within"));
       if (!(within >= kLeastAngle)) refuse("a tolerance of readings below what rounding allows");
       starts_.push_back(std::make_unique<RollStarts>(boundary_, tree, std::move(readings), within));
@@ -171,8 +190,11 @@ class Touches {
     }
   }
 
+  /// Refuses tolerances that are so small that the rounding of doubles decides. The largest coordinate is that of the
+  /// part or of a touch.
   void require_tolerances() {
     for (const SoughtTouch& touch : touches_) size_ = std::max({size_, std::abs(touch.x), std::abs(touch.y)});
+    // Of the finger's centres: the disc of its root bounds all coordinates.
     const CentreTree all(boundary_, question_.radius, std::nullopt);
     const CentreTree::Node& root = all.node(all.root());
     size_ = std::max({size_, std::abs(root.x) + root.radius, std::abs(root.y) + root.radius});
@@ -195,10 +217,12 @@ class Touches {
 
   // ---- each stated pose fits ----
 
+  /// P2: the stated pose is in its extent, and each contact fits it.
   void check_set(const CentreTree& tree, std::size_t number) const {
     const StatedSet& set = question_.sets[number];
     if (set.contacts == nullptr) return;
     const std::string name = "set " + std::to_string(number);
+    // Headings by radians, x and y by the largest coordinate.
     for (std::size_t axis = 0; set.extent && axis < 3; ++axis) {
       const double slack = axis == 2 ? kPlaceSlack : kPlaceSlack * size_;
       if (!(*set.extent)[axis].holds({set.pose[axis], set.pose[axis]}, slack))
@@ -210,6 +234,8 @@ class Touches {
     }
   }
 
+  /// P2 of one contact: its place is on the boundary and within reach, and the residuals are as stated and within the
+  /// tolerance.
   void check_contact(const CentreTree& tree, const StatedSet& set, const SoughtTouch& touch, const Json& stated,
                      const std::string& name) const {
     const Place place = document_.place_at(stated.at("at"));
@@ -218,25 +244,30 @@ class Touches {
     if (!is_considered(boundary_, question_.considered, place, number(stated.at("tangent"))))
       refuse(name + " is out of reach");
     const Point point = boundary_.position(place);
+    // The finger's centre on the part, p + r n.
     const Ball x = point.x + question_.radius * sin(direction);
     const Ball y = point.y - question_.radius * cos(direction);
     const Ball c = cos(Ball(set.pose[2]));
     const Ball s = sin(Ball(set.pose[2]));
+    // The centre in the world less the measured one.
     const Ball dx = set.pose[0] + c * x - s * y - touch.x;
     const Ball dy = set.pose[1] + s * x + c * y - touch.y;
     if (touch.has_place) {
       require_off(length_of(dx, dy), touch.length, kLengthSlack * size_, number(stated.at("off").at(0)), name);
     }
+    // A roll's first contact must leave all of its readings possible.
     if (touch.starts != nullptr && !touch.starts->may_start(place, direction)) {
       refuse(name + " starts a roll that its readings contradict");
     }
     if (!touch.tangent) return;
+    // tau - Theta - phi, modulo turns.
     const Ball turn = to_nearest_turn(Ball(*touch.tangent) - direction - set.pose[2]);
     require_off(turn, touch.angle, kTurnSlack, Ball(question_.mirrored(1)) * number(stated.at("off").at(1)), name);
   }
 
   // ---- there is no other ----
 
+  /// P1: every pose that fits is in an extent. A pose that fits and is in none refutes the certificate.
   void cover(CentreTree& tree, Verdict& verdict) const {
     std::vector<PoseBox> listed;
     for (const StatedSet& set : question_.sets) {
@@ -245,10 +276,12 @@ class Touches {
     std::optional<LeftOpen> open;
     if (document_.json().contains("unresolved")) {
       const Json& stated = document_.json().at("unresolved");
+      // What the search gave up is counted, not refused.
       open = LeftOpen{stated.at("touch").get<std::size_t>(), arcs(stated.at("arcs"), period_)};
       if (open->touch >= touches_.size()) refuse("what is unresolved is of a touch that is not there");
     }
     const Covered covered = PoseSearch(tree, touches_, listed, open).run();
+    // A pose that fits for certain and is in no set.
     if (covered.unlisted) refuse(unlisted(*covered.unlisted));
     if (covered.is_cut_short()) refuse("not decided: many poses are within rounding of the tolerance");
     verdict.cells = covered.boxes;
@@ -259,6 +292,7 @@ class Touches {
     for (const Interval& arc : open->arcs) verdict.share = std::min(verdict.share + arc.width() / period_, 1.0);
   }
 
+  /// For the message, as the part lies in the world.
   std::string unlisted(const std::array<double, 3>& pose) const {
     char text[160];
     if (!question_.any_place) {

@@ -54,6 +54,7 @@ struct Placement {
   bool is_one_piece() const { return pieces <= 1 && is_apart; }
 };
 
+/// L_c of a finger's contacts from its first one, which stands at the front with 0.
 std::vector<Ball> lengths(const Document& document, std::size_t finger) {
   std::vector<Ball> result = {0.0};
   for (const Json& reading : document.json().at("readings")) {
@@ -62,6 +63,7 @@ std::vector<Ball> lengths(const Document& document, std::size_t finger) {
   return result;
 }
 
+/// One equation for each reading, and one for the facing if it is known.
 PairEquations equations(const Document& document) {
   std::vector<Ball> turns;
   for (const Json& reading : document.json().at("readings")) turns.push_back(Document::turn(reading.at("turn")));
@@ -69,6 +71,7 @@ PairEquations equations(const Document& document) {
   return {turns, facing.is_null() ? std::nullopt : std::optional<Ball>(Document::turn(facing))};
 }
 
+/// Checks one certificate of two fingers; used once. Every refusal is a std::domain_error with its reason.
 class TwoFingers {
  public:
   explicit TwoFingers(const Document& document)
@@ -80,7 +83,9 @@ class TwoFingers {
         tolerance_(document.tolerance()),
         period_(document.period()) {}
 
+  /// The verdict without the question. The order matters: cells need the placements' boxes, roots and lines.
   Verdict check() {
+    // One equation in two unknowns has lines of solutions.
     if (equations_.count() < 2) refuse("it has fewer than two equations");
     whole_ = whole();
     read_placements();
@@ -93,12 +98,15 @@ class TwoFingers {
       ++verdict.cells;
       if (!check_cell(leaf, verdict.cells - 1)) return;
       ++verdict.open;
+      // Of all pairs.
       verdict.share += area(leaf.box) / area(whole_);
     };
     read_cover(document_.json().at("cells").get<std::string>(), whole_, check_leaf);
+    // With open cells it is not known what lies between the sets.
     if (verdict.open == 0) look_at_pieces();
     for (const Placement& placement : placements_) {
       check_placement(placement);
+      // Without one root of two equations nothing is known of a crossing.
       const bool has_kind = placement.is_single || placement.kind != "crossing";  // check_placement looks at corners
       verdict.families += placement.line ? 1 : 0;
       verdict.unproved += placement.proof == "none" || !has_kind || !placement.is_one_piece() ? 1 : 0;
@@ -109,17 +117,20 @@ class TwoFingers {
  private:
   // ---- rows: pairs of places, with how far each equation is off there ----
 
+  /// T4: a pair of places, at which each equation is off by what is stated.
   Places read_row(const Json& stated, const std::string& name) const {
     Places row;
     std::array<Stretch, 2> stretch;
     Ball slack = kTurnSlack;
     for (std::size_t finger = 0; finger < 2; ++finger) {
       row[finger] = document_.place_at(stated.at("start").at(finger));
+      // One place as a stretch: only its angles count.
       stretch[finger].pivot = true;
       for (const Ball& length : lengths_[finger]) {
         const std::optional<Place> contact = boundary_.after(row[finger].s + length);
         if (!contact) refuse(name + " has a contact at a joint");
         stretch[finger].from.push_back(contact->angle);
+        // What rounded places change the angles by.
         slack = slack + kRounding * period_ * abs(boundary_.bend(contact->curve, contact->u).curvature);
       }
     }
@@ -136,6 +147,7 @@ class TwoFingers {
   Box box_between(const Json& from, const Json& to, const std::string& name) const {
     const Places first = read_row(from, name);
     const Places last = read_row(to, name);
+    // Sides from the first row to the last one.
     Box box;
     for (std::size_t finger = 0; finger < 2; ++finger) {
       Interval& side = box[finger];
@@ -157,6 +169,7 @@ class TwoFingers {
     }
     const Box box = box_between(document_.json().at("from"), document_.json().at("to"), "its range");
     for (std::size_t finger = 0; finger < 2; ++finger) {
+      // An open outline: all starts that leave room must be in the range.
       const Interval starts = document_.starts(lengths_[finger]);
       if (!box[finger].holds(starts, kLengthSlack * period_)) refuse("it leaves out starts at an end");
     }
@@ -165,6 +178,7 @@ class TwoFingers {
 
   // ---- boxes ----
 
+  /// Of a box of pairs, for shares of all pairs.
   static double area(const Box& box) { return box[0].width() * box[1].width(); }
 
   /// Whether that is so of each finger's side of a box, on some lap.
@@ -184,6 +198,7 @@ class TwoFingers {
     return on_some_lap(inner, [&](const Interval& side, std::size_t k) { return outer[k].holds(side, -margin); });
   }
 
+  /// On some lap of each finger.
   bool meet(const Box& one, const Box& two) const {
     return on_some_lap(one, [&](const Interval& side, std::size_t k) { return side.meets(two[k]); });
   }
@@ -197,6 +212,7 @@ class TwoFingers {
       const auto& [lo, hi] = whole_[finger];
       box[finger] = {s - reach, s + reach};
       if (boundary_.closed()) continue;
+      // Moved inwards so that the box stays as wide beside an end.
       box[finger] = {std::clamp(s - reach, lo, hi - 2 * reach), std::clamp(s + reach, lo + 2 * reach, hi)};
     }
     return box;
@@ -209,6 +225,7 @@ class TwoFingers {
   bool check_cell(const Leaf& leaf, std::size_t number) {
     const std::string name = "cell " + std::to_string(number);
     if (leaf.kind == Leaf::unproved) return true;
+    // T1: excluded, by what is stated and by the tolerance.
     if (leaf.kind == Leaf::apart) {
       try {
         boxes_.prove_apart(leaf.box, std::max(leaf.bound, tolerance_));
@@ -218,13 +235,16 @@ class TwoFingers {
       return false;
     }
     if (leaf.number >= placements_.size()) refuse(name + " is of a placement that is not listed");
+    // T1: of a placement. With a box the cell lies inside it by a place's width, so that cells beside the box are not.
     Placement& placement = placements_[leaf.number];
     if (!placement.box) {
       placement.has_start = placement.has_start || holds(leaf.box, placement.start);
     } else if (!is_inside(leaf.box, *placement.box, kSamePlace * period_)) {
       refuse(name + " is not within the box of " + placement.name);
     }
+    // Its box holds at most one root, with all that is within the tolerance.
     if (placement.is_single) return false;
+    // Else what may fit in the cell is kept for `look_at_pieces`.
     const std::optional<std::vector<Polygon>> remains =
         boxes_.remains(leaf.box, tolerance_, placement.line ? &*placement.line : nullptr);
     if (!remains) return true;
@@ -241,6 +261,7 @@ class TwoFingers {
 
   // ---- placements ----
 
+  /// T4 of the placements: kinds, proofs, places, boxes and lines, as they are stated.
   void read_placements() {
     for (const Json& stated : document_.json().at("placements")) {
       Placement placement;
@@ -255,6 +276,7 @@ class TwoFingers {
       } else if (placement.proof != "one" && placement.proof != "fits" && placement.proof != "none") {
         refuse(placement.name + " has a proof '" + placement.proof + "'");
       }
+      // The box from corner to corner, by rows whose values are checked.
       if (stated.contains("box")) {
         placement.box = box_between(stated.at("box").at(0), stated.at("box").at(1), placement.name + "'s box");
         placement.has_start = holds(*placement.box, placement.start);
@@ -264,6 +286,7 @@ class TwoFingers {
     }
   }
 
+  /// A line of pairs and the extent that holds all of it. A family must have no box.
   void read_family(const Json& stated, Placement& placement) const {
     const auto ends = stated.at("family").get<std::array<std::array<double, 2>, 2>>();
     placement.line.emplace(boundary_, lengths_, ends[0], ends[1]);
@@ -293,6 +316,7 @@ class TwoFingers {
     const Roots roots = boxes_.roots_in(*placement.box, tolerance_);
     placement.is_single = roots != Roots::unknown;
     if (placement.proof != "one") return;
+    // T3 of `one`: two equations, one root of both.
     if (!placement.is_single) refuse(placement.name + " could not be proved to be the only one");
     if (equations_.count() != 2) refuse(placement.name + " is a root of two equations of more");
     if (placement.kind != (roots == Roots::one_pivot ? "corner" : "crossing")) {
@@ -316,28 +340,34 @@ class TwoFingers {
     for (const Polygon& set : placement.remains) {
       Box box;
       for (std::size_t finger = 0; finger < 2; ++finger) {
+        // The set's bounding box.
         const auto [lo, hi] = std::minmax_element(
             set.begin(), set.end(), [&](const auto& one, const auto& two) { return one[finger] < two[finger]; });
         box[finger] = {(*lo)[finger], (*hi)[finger]};
       }
       const bool is_inside = on_some_lap(box, [&](const Interval& side, std::size_t k) {
         const Interval& extent = (*placement.extent)[k];
+        // An extent of a whole lap claims nothing.
         return (boundary_.closed() && extent.width() >= period_ - slack) || extent.holds(side, slack);
       });
       if (!is_inside) refuse(placement.name + " is larger than its extent");
     }
   }
 
+  /// T2 and T3 of one placement; T1 of a family's extent.
   void check_placement(const Placement& placement) {
     if (placement.extent) check_extent(placement);
+    // One of the two fingers pivots.
     if (placement.kind == "corner" && !is_at_corner(placement, 0) && !is_at_corner(placement, 1)) {
       refuse(placement.name + " is at no corner");
     }
     const Box beside = around(placement.start, kBesideStart);
+    // With one root, the start must be at that root; else all equations fit together beside the start.
     const bool is_one = placement.proof == "one";
     if (!is_one && !boxes_.may_fit(beside, kBeyondTolerance * tolerance_)) refuse(placement.name + " does not fit");
     if (placement.proof == "none") return;
     if (!placement.has_start) refuse(placement.name + " is in no cell of its own");
+    // Two ways to be the root: off by rounding alone, or with exactly one root within kBesideRoot.
     if (is_one && !boxes_.may_fit(beside, 2.2 * kRootTurn) &&
         boxes_.roots_in(around(placement.start, kBesideRoot), 0) == Roots::unknown) {
       refuse(placement.name + " is not where the equations are solved");
@@ -349,6 +379,7 @@ class TwoFingers {
   }
 
   /// Where all that is not excluded is near to fitting: whether each placement's is one piece, next to no other one's.
+  /// T1: sets that come as near as places are told are one piece. Union-find over all sets; quadratic in their number.
   void look_at_pieces() {
     std::vector<std::pair<Placement*, Polygon>> all;
     for (Placement& placement : placements_) {
@@ -360,6 +391,7 @@ class TwoFingers {
     Budget::spend(kMeetWork * static_cast<double>(all.size() * all.size()));
     std::vector<std::size_t> piece(all.size());  // of each set another one that it hangs together with, or itself
     std::iota(piece.begin(), piece.end(), 0U);
+    // The root of a set's piece; paths are halved on the way.
     const auto first = [&](std::size_t i) {
       while (piece[i] != i) i = piece[i] = piece[piece[i]];
       return i;
@@ -367,11 +399,13 @@ class TwoFingers {
     for (std::size_t i = 0; i < all.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
         if (!meet(all[i].second, all[k].second)) continue;
+        // Two placements that hang together are not shown to be two.
         if (all[i].first != all[k].first) all[i].first->is_apart = all[k].first->is_apart = false;
         piece[first(i)] = first(k);
       }
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
+      // Each root is a piece.
       if (piece[i] == i) ++all[i].first->pieces;
     }
   }

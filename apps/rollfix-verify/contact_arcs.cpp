@@ -32,6 +32,7 @@ constexpr double kPassedSlack = 1e-12;
 
 }  // namespace
 
+/// Refuses an outline of which no size is known.
 BoundaryArcs::BoundaryArcs(const Boundary& boundary)
     : boundary_(boundary),
       tree_(boundary, 0, std::nullopt),
@@ -45,10 +46,12 @@ BoundaryArcs::BoundaryArcs(const Boundary& boundary)
 
 /// A short arc on one curve is bounded as it stands, in a few parts if it is not tiny.
 bool BoundaryArcs::add_curve(const Interval& arc, double slack) {
+  // Long arcs, and arcs over joints, take the tree.
   if (arc.width() > kShort * period_) return false;
   const std::optional<Place> from = boundary_.after(arc.lo - slack);
   const std::optional<Place> to = boundary_.after(arc.hi + slack);
   if (!from || !to || from->curve != to->curve) return false;
+  // Curves are counted on from lap to lap; angles grow by the whole turn with each.
   const double lap = std::floor(static_cast<double>(from->curve) / static_cast<double>(boundary_.curves()));
   const long curve = from->curve - static_cast<long>(lap) * boundary_.curves();
   const Interval u{from->u.lower(), to->u.upper()};
@@ -61,10 +64,13 @@ bool BoundaryArcs::add_curve(const Interval& arc, double slack) {
   return true;
 }
 
+/// Collects nodes that are small beside the arc, and together hold it. Descends where a node meets the arc.
 void BoundaryArcs::add(int index, const Lap& lap, double grain) {
   const CentreTree::Node node = tree_.node(index);
+  // The node is beside the arc.
   if (node.s.hi < lap.arc.lo || node.s.lo > lap.arc.hi) return;
   Budget::spend(0.1 * kArcWork);
+  // Beyond the arc's ends by a small share of it at most.
   const bool is_within = lap.arc.holds(node.s, kBeyond / kArcGrain * grain);
   const bool is_small = node.curve >= 0 && (node.is_corner || (is_within && node.s.width() <= grain));
   const auto [left, right] = is_small ? std::make_pair(index, index) : tree_.halves(index);
@@ -77,11 +83,15 @@ void BoundaryArcs::add(int index, const Lap& lap, double grain) {
   add(right, lap, grain);
 }
 
+/// The disc and the tangents of all places on an arc. Short arcs on one curve are expanded directly; all others take
+/// nodes of the tree, on each lap.
 OnArc BoundaryArcs::over(Interval arc) {
   Budget::spend(kArcWork);
   found_.clear();
+  // Contacts beyond an end of an open outline are excluded elsewhere.
   if (!closed_) arc = {std::clamp(arc.lo, 0.0, period_), std::clamp(arc.hi, 0.0, period_)};
   const double laps = std::max(std::abs(arc.lo), std::abs(arc.hi)) / period_;
+  // Rounding of s grows with the number of laps.
   const double slack = kArcSlack * (1 + laps) * period_;
   const double grain = std::max(kArcGrain * arc.width(), slack);
   if (add_curve(arc, slack)) return hull_of_found();
@@ -91,10 +101,12 @@ OnArc BoundaryArcs::over(Interval arc) {
     const double on = lap * period_;
     add(tree_.root(), {{arc.lo - slack - on, arc.hi + slack - on}, lap * turn_}, grain);
   }
+  // A boundary without a gap has a stretch for each arc.
   if (found_.empty()) refuse("a boundary with a gap");
   return hull_of_found();
 }
 
+/// A disc about the middle of all discs' middles, and the hull of the tangents.
 OnArc BoundaryArcs::hull_of_found() const {
   const double most = std::numeric_limits<double>::infinity();
   Interval x{most, -most}, y{most, -most}, angle{most, -most};
@@ -112,10 +124,12 @@ OnArc BoundaryArcs::hull_of_found() const {
   return all;
 }
 
+/// The root is the whole boundary.
 FirstContacts::FirstContacts(BoundaryArcs& boundary, const HeldFinger& finger) : boundary_(boundary), finger_(finger) {
   add({0, boundary.period()});
 }
 
+/// Where the contact can be at an instant: z + L, within the tolerance of travel.
 Interval FirstContacts::moved(const Interval& arc, std::size_t instant) const {
   const double travelled = finger_.at[instant].travelled;
   return {arc.lo + travelled - finger_.travel, arc.hi + travelled + finger_.travel};
@@ -123,6 +137,7 @@ Interval FirstContacts::moved(const Interval& arc, std::size_t instant) const {
 
 /// On some lap.
 bool FirstContacts::meets(const Interval& one, const Interval& other) const {
+  // Some shift by whole laps makes them meet.
   if (!boundary_.closed()) return one.meets(other);
   const double period = boundary_.period();
   return std::floor((other.hi - one.lo) / period) >= std::ceil((other.lo - one.hi) / period);
@@ -131,7 +146,9 @@ bool FirstContacts::meets(const Interval& one, const Interval& other) const {
 /// Each contact has a place within reach, and so has all that was rolled over from every first contact of the arc.
 bool FirstContacts::can_be(const Interval& arc) const {
   const double slack = kPassedSlack * boundary_.period();
+  // The intersection of z + `passed` over all z of the arc.
   const Interval passed{arc.hi + finger_.passed.lo + slack, arc.lo + finger_.passed.hi - slack};
+  // A contact beyond an end does not exist.
   const bool is_open = !boundary_.closed();
   if (is_open && passed.lo < passed.hi && (passed.lo < -slack || passed.hi > boundary_.period() + slack)) return false;
   for (std::size_t instant = 0; instant < finger_.at.size(); ++instant) {
@@ -140,20 +157,24 @@ bool FirstContacts::can_be(const Interval& arc) const {
     const bool is_within = std::any_of(finger_.within.begin(), finger_.within.end(), [&](const Interval& one) {
       return meets({one.lo - slack, one.hi + slack}, there);
     });
+    // The contact is out of reach at that instant.
     if (finger_.reach && !is_within) return false;
   }
   if (!finger_.reach || !(passed.lo < passed.hi)) return true;
+  // What was passed over may meet no gap between the places within reach.
   return std::none_of(finger_.gaps.begin(), finger_.gaps.end(), [&](const Interval& gap) {
     const Interval inner{gap.lo + slack, gap.hi - slack};
     return inner.lo < inner.hi && meets(inner, passed);
   });
 }
 
+/// Its index; halves are added one behind the other.
 int FirstContacts::add(const Interval& arc) {
   nodes_.push_back({arc, can_be(arc), -1, {}});
   return static_cast<int>(nodes_.size()) - 1;
 }
 
+/// Computed when it is first asked for, and kept.
 const OnArc& FirstContacts::at(int index, std::size_t instant) {
   Node& node = nodes_[static_cast<std::size_t>(index)];
   if (node.at.empty()) node.at.resize(finger_.at.size());
@@ -162,6 +183,7 @@ const OnArc& FirstContacts::at(int index, std::size_t instant) {
 }
 
 /// What the arc length itself may be off by does not get smaller, nor does a corner's turn.
+/// Arcs of size 1 and below are not halved any further.
 double FirstContacts::size(int index) {
   const double width = arc(index).width();
   double size = 0;

@@ -16,8 +16,8 @@ namespace rollfix_verify {
 struct OnArc {
   double x = 0;
   double y = 0;
-  double radius = 0;
-  double angle = 0;  // radians, counted on from lap to lap
+  double radius = 0;  // of the disc
+  double angle = 0;   // radians, counted on from lap to lap
   double half_turn = 0;
 };
 
@@ -38,8 +38,11 @@ class BoundaryArcs {
     Interval arc;  // on the first lap
     double turn = 0;
   };
+  /// Bounds a short arc on one curve; false: it is none.
   bool add_curve(const Interval& arc, double slack);
+  /// Adds the stretches of a node that meet an arc, no longer than `grain`.
   void add(int index, const Lap& lap, double grain);
+  /// One disc and one interval for all stretches that were found.
   OnArc hull_of_found() const;
 
   const Boundary& boundary_;
@@ -48,7 +51,7 @@ class BoundaryArcs {
   double period_;
   double turn_;
   double size_ = 0;
-  std::vector<OnArc> found_;
+  std::vector<OnArc> found_;  // stretches that together hold the arc asked for
 };
 
 /// Arcs of first contacts of one finger, halved when somebody asks for it, and where the contact is at each instant.
@@ -69,12 +72,16 @@ class FirstContacts {
   struct Node {
     Interval arc;
     bool is_possible = true;
-    int left = -1;
+    int left = -1;  // -1: not halved yet; the right half stands behind it
     std::vector<std::optional<OnArc>> at;
   };
+  /// A new node.
   int add(const Interval& arc);
+  /// Whether some first contact of the arc can have rolled as the finger did.
   bool can_be(const Interval& arc) const;
+  /// Whether two arcs have a place in common.
   bool meets(const Interval& one, const Interval& other) const;
+  /// An arc of first contacts, as the contacts are at an instant.
   Interval moved(const Interval& arc, std::size_t instant) const;
 
   BoundaryArcs& boundary_;

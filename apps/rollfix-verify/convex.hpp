@@ -25,7 +25,9 @@ using Box = std::array<Interval, 2>;
 using Polygon = std::vector<std::array<double, 2>>;
 
 /// What is left of it where a linear function, `at` + `slope` . pair, is no more than `most`.
+/// A convex set stays convex. Doubles: the caller has slack for their rounding.
 inline Polygon clipped(const Polygon& polygon, double at, const std::array<double, 2>& slope, double most) {
+  // Above 0: cut off.
   const auto excess = [&](const std::array<double, 2>& p) { return at + slope[0] * p[0] + slope[1] * p[1] - most; };
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -33,6 +35,7 @@ inline Polygon clipped(const Polygon& polygon, double at, const std::array<doubl
     const auto& next = polygon[(k + 1) % polygon.size()];
     const double from = excess(here);
     const double to = excess(next);
+    // Corners on the line stay; an edge that crosses it gives a new corner there.
     if (from <= 0) kept.push_back(here);
     if (!((from < 0 && to > 0) || (from > 0 && to < 0))) continue;
     const double share = from / (from - to);
@@ -55,6 +58,7 @@ inline bool are_apart_along(const std::array<double, 2>& direction, const Polygo
     hi = std::max(hi, along(p, 0, 0));
   }
   const auto at = [&](const auto& p) { return along(p, shift[0], shift[1]); };
+  // All of the other one is on one side.
   return std::all_of(other.begin(), other.end(), [&](const auto& p) { return at(p) > hi + slack; }) ||
          std::all_of(other.begin(), other.end(), [&](const auto& p) { return at(p) < lo - slack; });
 }
@@ -64,6 +68,8 @@ inline bool are_apart_along(const std::array<double, 2>& direction, const Polygo
 inline bool are_near(const Polygon& one, const Polygon& other, const std::array<double, 2>& shift, double slack) {
   if (are_apart_along({1, 0}, one, other, shift, slack) || are_apart_along({0, 1}, one, other, shift, slack))
     return false;
+  // Convex sets that are apart are so across some edge of one of them (separating axis); along edges for sets without
+  // area.
   std::vector<std::array<double, 2>> directions;
   for (const Polygon* polygon : {&one, &other}) {
     for (std::size_t k = 0; k < polygon->size(); ++k) {

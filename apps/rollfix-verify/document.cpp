@@ -5,10 +5,13 @@
 #include <stdexcept>
 #include <vector>
 
-// Notation: s is the arc length, P the perimeter; a place is [curve, its parameter], and s, point and tangent that are
-// stated of it have to be within the slacks of document.hpp of what the formulas say. Angles differ by whole turns, and
-// a tangent may turn by |kappa| times what a place may be off (`turn_beside`). Follows docs/certificates.md, "What
-// 'proved' means": T4, the question.
+// Notation:
+//   s, P            arc length, perimeter: `period_`
+//   place           [curve, its parameter]; s, point and tangent that are stated of it have to be within the slacks of
+//                   document.hpp of what the formulas say
+//   turn_beside     |kappa| times what a place may be off: by so much a tangent may turn
+// Follows docs/certificates.md, "What 'proved' means": T4, the question.
+// Idea: nothing that is stated is used without being computed again. Angles are compared modulo whole turns.
 namespace rollfix_verify {
 namespace {
 
@@ -20,6 +23,7 @@ constexpr double kMostLaps = 1e6;
 // Curves meet to this share of the perimeter.
 constexpr double kMostGap = 1e-9;
 
+/// T4: each curve by its kind and numbers. Throws std::runtime_error where there is no such curve.
 std::vector<Formula> formulas(const Json& curves) {
   std::vector<Formula> result;
   for (const Json& curve : curves) {
@@ -30,14 +34,18 @@ std::vector<Formula> formulas(const Json& curves) {
 
 }  // namespace
 
+/// A std::domain_error, which `check` turns into the verdict.
 void refuse(const std::string& why) { throw std::domain_error(why); }
 
+/// Builds the boundary, and computes its length; nothing that is stated is compared yet. Certificates of touches and
+/// holds have no tolerance here.
 Document::Document(const Json& json)
     : json_(json),
       boundary_(formulas(json.at("curves")), json.at("closed").get<bool>()),
       period_(boundary_.perimeter().middle()),
       tolerance_(json.value("tolerance", 0.0)) {}
 
+/// Also refuses a tolerance that is NaN or infinite.
 void Document::check() const {
   if (!(tolerance_ >= kLeastTolerance) || !std::isfinite(tolerance_)) {
     refuse("the tolerance is below what rounding allows");
@@ -45,10 +53,12 @@ void Document::check() const {
   check_outline();
 }
 
+/// T4: perimeter, largest gap and first point, to the slacks of document.hpp.
 void Document::check_outline() const {
   const double stated = json_.at("perimeter").get<double>();
   if (!abs(boundary_.perimeter() - stated).is_below(kLengthSlack * period_)) refuse("the perimeter is another one");
   if (!(period_ > 0)) refuse("the outline has no length");
+  // An open outline that is stated as closed has a gap between its ends.
   if (!(boundary_.largest_gap() <= kMostGap * period_)) refuse("its curves do not meet");
   const double gap = json_.at("gap").get<double>();
   if (!(std::abs(boundary_.largest_gap() - gap) <= kLengthSlack * period_)) refuse("its curves meet otherwise");
@@ -56,18 +66,21 @@ void Document::check_outline() const {
   if (!is_at(boundary_.position(first), json_.at("origin"))) refuse("the outline starts elsewhere");
 }
 
+/// L, in the outline's unit.
 Ball Document::length(const Json& stated) const {
   const double value = stated.get<double>();
   if (!(std::abs(value) <= kMostLaps * period_)) refuse("a roll of more than a million laps");
   return value;
 }
 
+/// Radians.
 Ball Document::turn(const Json& stated) {
   const double value = stated.get<double>();
   if (!(std::abs(value) <= kMostLaps * kFullTurnUp)) refuse("an angle of more than a million turns");
   return value;
 }
 
+/// 0 <= s and s + L <= P for each length.
 Interval Document::starts(const std::vector<Ball>& lengths) const {
   Interval all{0, period_};
   for (const Ball& length : lengths) {
@@ -83,16 +96,19 @@ std::string Document::kind_of(const std::string& name, const Json& placement) {
   if (kind != "crossing" && kind != "touching" && kind != "corner" && kind != "stretch") {
     refuse(name + " is of a kind that is not known");
   }
+  // T2 leaves the tangent open there, so that a stated one would be believed unchecked.
   if (kind == "corner" && placement.contains("tangent")) refuse(name + " has a tangent, but pivots");
   return kind;
 }
 
+/// To kPlaceSlack of the perimeter, in each coordinate.
 bool Document::is_at(const Point& point, const Json& stated) const {
   const double slack = kPlaceSlack * period_;
   return abs(point.x - stated.at(0).get<double>()).is_below(slack) &&
          abs(point.y - stated.at(1).get<double>()).is_below(slack);
 }
 
+/// Refuses a curve, and throws std::runtime_error for a parameter, that is not there.
 Place Document::place_at(const Json& stated) const {
   const auto curve = stated.at(0).get<long>();
   if (curve < 0 || curve >= boundary_.curves()) refuse("a place on a curve that is not there");
@@ -101,11 +117,13 @@ Place Document::place_at(const Json& stated) const {
 
 bool Document::is_as_far(const Ball& s, const Ball& stated) const {
   const Ball off = s - stated;
+  // The nearest number of whole laps.
   const Ball laps = boundary_.closed() ? Ball(std::round(off.middle() / period_)) * boundary_.perimeter() : Ball(0.0);
   return abs(off - laps).is_below(kLengthSlack * period_);
 }
 
-/// Where a curve is at rest its curvature does not tell.
+/// |kappa| times the slack of lengths. At rest kappa has no bound: there the angles beside the place are compared with
+/// its own.
 Ball Document::turn_beside(const Place& place) const {
   const Ball reach = kLengthSlack * period_;
   const Ball curvature = boundary_.bend(place.curve, place.u).curvature;
@@ -118,8 +136,10 @@ Ball Document::turn_beside(const Place& place) const {
   return most;
 }
 
+/// T4 of one finger's placement. At a corner the tangent is left open, and is not compared.
 Place Document::contact(const std::string& name, const Json& placement, const Ball& length,
                         std::optional<std::size_t> finger) const {
+  // Of two fingers each field is a list.
   const auto stated = [&](const char* key) -> const Json& {
     const Json& all = placement.at(key);
     return finger ? all.at(*finger) : all;
@@ -129,16 +149,20 @@ Place Document::contact(const std::string& name, const Json& placement, const Ba
   if (!is_as_far(start.s + length, stated("end").get<double>())) refuse(name + " ends elsewhere");
   if (!is_at(boundary_.position(start), stated("point"))) refuse(name + " is at another point");
   if (placement.at("kind") == "corner") return start;
+  // The angle between the curve's velocity and the stated tangent, which needs no unwrapping.
   const Point v = boundary_.velocity(start);
   const double tangent = stated("tangent").get<double>();
+  // The stated tangent as a unit vector.
   const Ball c = cos(Ball(tangent));
   const Ball s = sin(Ball(tangent));
   const Ball apart = atan2(v.y * c - v.x * s, v.x * c + v.y * s);
+  // The place is known to a slack only, and the tangent turns over it.
   const Ball most = kPlaceSlack + turn_beside(start);
   if (!abs(apart).is_below(most) || !(std::abs(tangent) < kHalfTurn)) refuse(name + " has another tangent");
   return start;
 }
 
+/// A stated double.
 double number(const Json& stated) {
   const double value = stated.get<double>();
   if (!std::isfinite(value)) refuse("a number that is not finite");
@@ -156,6 +180,7 @@ std::vector<Interval> intervals(const Json& stated) {
 std::vector<Interval> arcs(const Json& stated, double period) {
   std::vector<Interval> result = intervals(stated);
   for (const Interval& arc : result) {
+    // Negated, so that NaN is refused.
     if (!(arc.lo >= -kLengthSlack * period && arc.lo <= period && arc.hi >= arc.lo &&
           arc.hi <= arc.lo + (1 + kLengthSlack) * period)) {
       refuse("an arc that is none of the boundary");
@@ -164,6 +189,7 @@ std::vector<Interval> arcs(const Json& stated, double period) {
   return result;
 }
 
+/// `null`: everywhere.
 std::optional<Considered> considered(const Json& stated, double period) {
   if (stated.is_null()) return std::nullopt;
   Considered result;
@@ -174,6 +200,7 @@ std::optional<Considered> considered(const Json& stated, double period) {
   return result;
 }
 
+/// On an arc of `reach`, or at one of its corners with one of its angles; to kPlaceSlack.
 bool is_considered(const Boundary& boundary, const std::optional<Considered>& considered, const Place& place,
                    double tangent) {
   if (!considered) return true;
@@ -181,11 +208,13 @@ bool is_considered(const Boundary& boundary, const std::optional<Considered>& co
   const double s = place.s.middle();
   for (const double lap : boundary.laps()) {
     for (const Interval& arc : considered->arcs) {
+      // Tangents are any on an arc.
       if (s >= arc.lo + lap - slack && s <= arc.hi + lap + slack) return true;
     }
     for (const CornerAngles& corner : considered->corners) {
       if (std::abs(s - corner.s - lap) > slack) continue;
       for (const Interval& angles : corner.angles) {
+        // From the middle of the stated angles, modulo turns.
         const Ball off = to_nearest_turn(Ball(tangent) - 0.5 * (angles.lo + angles.hi));
         if (abs(off).is_below(0.5 * angles.width() + kPlaceSlack)) return true;
       }
@@ -194,16 +223,20 @@ bool is_considered(const Boundary& boundary, const std::optional<Considered>& co
   return false;
 }
 
+/// Refuses an angle that the boundary does not have at this place. At a corner the end angles count to the slack, a
+/// convex one has all in between.
 Ball direction_at(const Document& document, const CentreTree& tree, const Place& place, double stated,
                   const std::string& name) {
   if (!(std::abs(stated) <= kMostAngle)) refuse(name + " has another tangent");
   const Boundary& boundary = document.boundary();
+  // Modulo whole turns.
   const auto near = [&](const Ball& one, const Ball& slack) {
     return abs(to_nearest_turn(one - stated)).is_below(slack);
   };
   const Ball slack = kPlaceSlack + document.turn_beside(place);
   Ball own = tree.direction(place);
   if (near(own, slack)) return own;
+  // The joints at both ends of the place's curve, if the place is at one of them.
   for (const long joint : {place.curve, place.curve - 1}) {
     const bool is_end = !boundary.closed() && (joint < 0 || joint + 1 == boundary.curves());
     if (is_end) continue;
@@ -211,6 +244,7 @@ Ball direction_at(const Document& document, const CentreTree& tree, const Place&
     if (!abs(apart).is_below(kPlaceSlack * document.period())) continue;
     Ball before = tree.direction(boundary.back(joint));
     Ball after = before + boundary.jump(joint);
+    // One of the two ends, known to all digits.
     if (near(before, slack)) return before;
     if (near(after, slack)) return after;
     if (const std::optional<Ball> pivots = tree.pivots(joint)) {
@@ -221,8 +255,10 @@ Ball direction_at(const Document& document, const CentreTree& tree, const Place&
   refuse(name + " has another tangent");
 }
 
+/// `slack`: what doubles may have made of the stated numbers, in the residual's own unit.
 void require_off(const Ball& residual, double tolerance, double slack, const Ball& stated, const std::string& name) {
   if (!abs(residual).is_below((1 + kEdge) * tolerance + slack)) refuse(name + " is off by more than its tolerance");
+  // The stated share must be the computed one: so every number of the pose is tied to the formulas.
   if (!abs(residual - stated * tolerance).is_below(kEdge * tolerance + 2 * slack)) {
     refuse(name + " is off by another share of its tolerance");
   }

@@ -70,20 +70,25 @@ class FingerCurve {
   const std::pair<Stretch, Stretch>& halved(const Stretch& stretch);
 
  private:
+  /// Where all contacts are with the first one at s. Throws std::domain_error where that can't be told.
   std::vector<Place> places(double& s, int way) const;
   /// A first contact that brings a contact to a joint.
   struct Cut {
     double s = 0;
     bool is_corner = false;
   };
+  /// The cuts of all contacts, by rising s.
   std::vector<Cut> cuts_between(double lo, double hi, Cuts cuts) const;
+  /// The first contacts from lo to hi, among which there is no cut.
   Stretch smooth(double lo, double hi) const;
+  /// Bounds on a contact's angle over some segments; unknown where the curvature changes its sign.
   Ball range_of(const std::vector<Segment>& all, const Ball& curvature) const;
+  /// One place with contacts at corners: a stretch for each choice of their angles' sets.
   std::vector<Stretch> at_corner(double lo, double hi) const;
 
   const Boundary& boundary_;
-  std::vector<Ball> lengths_;
-  double period_;
+  std::vector<Ball> lengths_;  // of each contact from the first one, 0 among them
+  double period_;              // the perimeter
   std::map<std::tuple<double, double, Cuts>, std::vector<Stretch>> known_;
   std::size_t kept_ = 0;  // about how many stretches that makes
 };

@@ -42,6 +42,7 @@ std::vector<Interval> joined(std::vector<Interval> all) {
   std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
   std::vector<Interval> result;
   for (const Interval& one : all) {
+    // In the order of their starts: the next one can only overlap the last of the result.
     if (result.empty() || one.lo > result.back().hi) {
       result.push_back(one);
     } else {
@@ -60,6 +61,7 @@ bool keep(const Interval& others, Interval& angles) {
   Interval kept{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const double first = std::ceil((angles.lo - others.hi) / kTurn);
   const double last = std::floor((angles.hi - others.lo) / kTurn);
+  // Every number of whole turns at which the two overlap.
   for (double turn = first; turn <= last; turn += 1) {
     kept.lo = std::min(kept.lo, std::max(angles.lo, others.lo + turn * kTurn));
     kept.hi = std::max(kept.hi, std::min(angles.hi, others.hi + turn * kTurn));
@@ -77,6 +79,7 @@ std::vector<std::size_t> telling_order(std::size_t count) {
 
 }  // namespace
 
+/// Intersects what is known with other intervals, on every period. The first ones are taken as they are.
 void Zeros::keep(std::vector<Interval> others) {
   others = joined(std::move(others));
   if (!known_) {
@@ -86,6 +89,7 @@ void Zeros::keep(std::vector<Interval> others) {
   std::vector<Interval> common;
   for (const Interval& one : *known_) {
     for (const Interval& other : others) {
+      // All shifts by whole periods at which the two may overlap.
       const double first = period_ > 0 ? std::ceil((one.lo - other.hi) / period_) : 0;
       const double last = period_ > 0 ? std::floor((one.hi - other.lo) / period_) : 0;
       for (double lap = first; lap <= last; lap += 1) {
@@ -110,16 +114,19 @@ struct PinLook::Question {
   std::vector<Interval>& zeros;
 };
 
+/// The path of the pin is that of a disk's centre. `period_`: what psi + t / r grows by around the part.
 PinLook::PinLook(const Boundary& boundary, const HeldWheel& wheel, double turn)
     : wheel_(wheel), path_(boundary, wheel.radius, wheel.reach) {
   if (path_.root() < 0) refuse("a wheel that can be nowhere");
   if (boundary.closed()) period_ = std::abs(turn + boundary.perimeter().middle() / wheel.radius);
   const CentreTree::Node& root = path_.node(path_.root());
+  // Of the part, the path and all pins.
   double largest = std::hypot(root.x, root.y) + root.radius;
   for (const HeldWheel::At& at : wheel.at) largest = std::max({largest, std::abs(at.x), std::abs(at.y)});
   rounding_ = kPinRounding * largest;
 }
 
+/// With the box of contacts as `from`, within which p is known.
 bool PinLook::may_touch(const SeenFrom& from, std::size_t instant, double heading, double half,
                         std::vector<Interval>& zeros) {
   const HeldWheel::At& pin = wheel_.at[instant];
@@ -130,19 +137,25 @@ bool PinLook::may_touch(const SeenFrom& from, std::size_t instant, double headin
   return look(question, heading, std::min(half, 0.5 * kTurn));
 }
 
+/// Where the pin is on the part for headings within `half`: x, within `reach`. Wide intervals of headings are halved
+/// first, so that the pin's disc is about as small as the contact's.
 bool PinLook::look(Question& question, double heading, double half) {
   Budget::spend(kPinWork);
+  // In the middle of the headings.
   const double c = std::cos(heading);
   const double s = std::sin(heading);
   const double x = question.x + c * question.arm_x + s * question.arm_y;
   const double y = question.y + c * question.arm_y - s * question.arm_x;
   const double reach = question.reach + 2 * question.arm * std::sin(0.5 * half);
+  // If the path is far from all of the disc, no half can touch. Both halves are asked, for zeros are added by each.
   if (half * question.arm > kHeadingGrain * question.reach) {
     if (!is_near(x, y, reach)) return false;
     const bool is_below = look(question, heading - 0.5 * half, 0.5 * half);
     return look(question, heading + 0.5 * half, 0.5 * half) || is_below;
   }
+  // The pin alone: any stretch of the path within reach will do.
   if (!wheel_.spin && !wheel_.line) return is_near(x, y, reach);
+  // Else each stretch within reach is looked at by itself, for its tangents and places.
   bool is_any = false;
   std::vector<int> waiting{path_.root()};
   while (!waiting.empty()) {
@@ -151,6 +164,7 @@ bool PinLook::look(Question& question, double heading, double half) {
     waiting.pop_back();
     const CentreTree::Node node = path_.node(index);
     const double apart = std::hypot(x - node.x, y - node.y);
+    // The stretch is out of the pin's reach.
     if (apart > reach + node.radius) continue;
     const double grain = apart <= reach ? kPinGrain : kPinEdge;
     const bool is_small = node.curve >= 0 && node.radius <= grain * reach;
@@ -160,9 +174,11 @@ bool PinLook::look(Question& question, double heading, double half) {
       waiting.push_back(right);
       continue;
     }
+    // In reach, but squeezed the line has another direction.
     if (!suits(question, heading, half, node)) continue;
     is_any = true;
     if (!wheel_.spin) return true;
+    // beta - phi - psi, without t / r: the stretch has an interval of t.
     const double zero = wheel_.at[question.instant].spin - heading - node.angle;
     const double off = half + node.half_turn + *wheel_.spin + kPinAngleRounding * (1 + std::abs(zero));
     question.zeros.push_back({zero - node.s.hi / wheel_.radius - off, zero - node.s.lo / wheel_.radius + off});
@@ -179,11 +195,14 @@ bool PinLook::is_near(double x, double y, double reach) {
     waiting.pop_back();
     const CentreTree::Node node = path_.node(index);
     const double apart = std::hypot(x - node.x, y - node.y);
+    // None of the stretch is near enough.
     if (apart > reach + node.radius) continue;
+    // The middle of the disc is within reach, or the stretch is too small to be told from one that is.
     if (node.curve >= 0 && (apart <= reach || node.radius <= kPinEdge * reach)) return true;
     const auto [left, right] = path_.halves(index);
     if (left == right) return true;
     const auto distance = [&](int half) { return std::hypot(x - path_.node(half).x, y - path_.node(half).y); };
+    // The nearer half is put on top.
     const bool is_left_nearer = distance(left) < distance(right);
     waiting.push_back(is_left_nearer ? right : left);
     waiting.push_back(is_left_nearer ? left : right);
@@ -199,6 +218,7 @@ bool PinLook::suits(const Question& question, double heading, double half, const
   return !(std::abs(nearest(towards - heading - node.angle)) > most);
 }
 
+/// `open`: arcs that the certificate leaves open.
 HoldSearch::HoldSearch(BoundaryArcs& boundary, const std::vector<HeldFinger>& fingers, std::deque<PinLook>& wheels,
                        std::vector<HeldSet> listed, std::vector<HeldSet> open)
     : boundary_(boundary),
@@ -215,12 +235,14 @@ HoldSearch::HoldSearch(BoundaryArcs& boundary, const std::vector<HeldFinger>& fi
   rounding_ = kHoldRounding * largest;
 }
 
+/// Starts with the whole boundary for each finger.
 HoldCovered HoldSearch::run() {
   covered_ = {};
   visit(Nodes(fingers_.size(), 0));
   return covered_;
 }
 
+/// Whether all first contacts of the box are in one of the sets.
 bool HoldSearch::is_in(const std::vector<HeldSet>& sets, const Nodes& box) const {
   Budget::spend(kHoldComparison * static_cast<double>(sets.size()));
   const double period = boundary_.period();
@@ -228,7 +250,9 @@ bool HoldSearch::is_in(const std::vector<HeldSet>& sets, const Nodes& box) const
   const auto holds = [&](const HeldSet& set, std::size_t finger) {
     const Interval& arc = contacts_[finger].arc(box[finger]);
     if (!boundary_.closed()) return set[finger].holds(arc, slack);
+    // The whole boundary.
     if (set[finger].width() >= period - slack) return true;
+    // Arcs of sets begin on the first lap and may go beyond it.
     return set[finger].holds(arc, slack) || set[finger].holds({arc.lo + period, arc.hi + period}, slack);
   };
   return std::any_of(sets.begin(), sets.end(), [&](const HeldSet& set) {
@@ -239,19 +263,25 @@ bool HoldSearch::is_in(const std::vector<HeldSet>& sets, const Nodes& box) const
   });
 }
 
+/// The headings at which the chord between two contacts is where it was measured. `offsets`: headings less `base`.
+/// False: none is left.
 bool HoldSearch::keep_chord(const Nodes& box, std::size_t instant, std::size_t one, std::size_t other, double base,
                             Interval& offsets) {
   const OnArc& from = contacts_[one].at(box[one], instant);
   const OnArc& to = contacts_[other].at(box[other], instant);
   const HeldFinger::At& from_at = fingers_[one].at[instant];
   const HeldFinger::At& to_at = fingers_[other].at[instant];
+  // The chord on the part, and in the world.
   const double part_x = to.x - from.x, part_y = to.y - from.y;
   const double world_x = to_at.x - from_at.x, world_y = to_at.y - from_at.y;
   const double reach = from.radius + to.radius + fingers_[one].place + fingers_[other].place + rounding_;
   const double part = std::hypot(part_x, part_y), world = std::hypot(world_x, world_y);
+  // The chords' lengths differ by more than all that both contacts may be off.
   if (std::abs(part - world) > reach) return false;
   // The law of cosines.
+  // |R(phi) part - world| <= reach is an interval of angles between the two chords:
   const double cosine = (part * part + world * world - reach * reach) / (2 * part * world);
+  // Any angle will do, also where a chord has no length.
   if (!(cosine > -1)) return true;
   const double half = std::acos(std::min(cosine, 1.0)) + kHeadingRounding;
   const double middle = std::atan2(world_y, world_x) - std::atan2(part_y, part_x) - base;
@@ -260,6 +290,7 @@ bool HoldSearch::keep_chord(const Nodes& box, std::size_t instant, std::size_t o
 
 /// Those that suit all normals and chords, counted on from instant to instant with the first finger's.
 std::optional<Interval> HoldSearch::headings(const Nodes& box, std::size_t instant) {
+  // phi = tau - theta, as one finger has it.
   const auto own = [&](std::size_t finger) {
     const OnArc& on = contacts_[finger].at(box[finger], instant);
     const double middle = fingers_[finger].at[instant].tangent - on.angle;
@@ -267,11 +298,14 @@ std::optional<Interval> HoldSearch::headings(const Nodes& box, std::size_t insta
     return Interval{middle - half, middle + half};
   };
   Interval first = own(0);
+  // Other angles are compared with it modulo turns.
   const double base = 0.5 * (first.lo + first.hi);
   Interval offsets{first.lo - base, first.hi - base};
+  // More than a whole turn says nothing.
   if (offsets.width() > kTurn) offsets = {-0.5 * kTurn, 0.5 * kTurn};
   for (std::size_t finger = 1; finger < fingers_.size(); ++finger) {
     Interval other = own(finger);
+    // Says nothing.
     if (other.width() >= kTurn) continue;
     if (!keep({other.lo - base, other.hi - base}, offsets)) return std::nullopt;
   }
@@ -284,11 +318,14 @@ std::optional<Interval> HoldSearch::headings(const Nodes& box, std::size_t insta
   return Interval{offsets.lo + base, offsets.hi + base};
 }
 
+/// Each wheel, as seen from each finger whose place is known. `zeros`: what earlier instants left of each encoder's
+/// zero.
 bool HoldSearch::may_touch(const Nodes& box, std::size_t instant, const Interval& heading, std::vector<Zeros>& zeros) {
   const double middle = 0.5 * (heading.lo + heading.hi);
   const double half = 0.5 * heading.width() + kHeadingRounding * (1 + std::abs(middle));
   for (std::size_t wheel = 0; wheel < wheels_.size(); ++wheel) {
     for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+      // The wheel is seen from contacts whose place in the world is known.
       if (!fingers_[finger].has_place) continue;
       const OnArc& on = contacts_[finger].at(box[finger], instant);
       const HeldFinger::At& at = fingers_[finger].at[instant];
@@ -297,14 +334,17 @@ bool HoldSearch::may_touch(const Nodes& box, std::size_t instant, const Interval
       if (!wheels_[wheel].may_touch(from, instant, middle, half, left)) return false;
       if (!wheels_[wheel].wheel().spin) continue;
       zeros[wheel].keep(std::move(left));
+      // No zero suits all instants so far.
       if (zeros[wheel].is_empty()) return false;
     }
   }
   return true;
 }
 
+/// False: at some instant, or by all zeros together, no first contacts of the box fit.
 bool HoldSearch::may_fit(const Nodes& box) {
   for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+    // By one finger alone: reach, and ends of an open outline.
     if (!contacts_[finger].is_possible(box[finger])) return false;
   }
   std::vector<Zeros> zeros;
@@ -316,6 +356,7 @@ bool HoldSearch::may_fit(const Nodes& box) {
   });
 }
 
+/// Counts a box that is as small as it gets; the first one's middle is kept for the message.
 void HoldSearch::add_undecided(const Nodes& box) {
   ++covered_.undecided;
   if (!covered_.first_undecided.empty()) return;
@@ -325,10 +366,12 @@ void HoldSearch::add_undecided(const Nodes& box) {
   }
 }
 
+/// One box: listed, excluded, left open, or too small; else its longest arc, in tolerances, is halved.
 void HoldSearch::visit(const Nodes& box) {
   if (covered_.is_cut_short()) return;
   Budget::spend(kHoldBox);
   ++covered_.boxes;
+  // What is listed needs no look: P2 is checked elsewhere.
   if (is_in(listed_, box) || !may_fit(box)) return;
   if (is_in(open_, box)) {
     ++covered_.open;
@@ -344,6 +387,7 @@ void HoldSearch::visit(const Nodes& box) {
   }
   const auto [left, right] =
       most > 1 ? contacts_[widest].halves(box[widest]) : std::make_pair(box[widest], box[widest]);
+  // As small as it gets, and still not excluded.
   if (left == right) return add_undecided(box);
   for (const int half : {left, right}) {
     Nodes next = box;

@@ -49,13 +49,16 @@ class PinLook {
 
  private:
   struct Question;
+  /// Headings within `half` of the middle one, halved where that is too wide.
   bool look(Question& question, double heading, double half);
+  /// Whether the path comes within reach of a point of the part.
   bool is_near(double x, double y, double reach);
+  /// Whether a stretch has a tangent with which the line between contact and pin is as measured.
   bool suits(const Question& question, double heading, double half, const CentreTree::Node& node) const;
 
   const HeldWheel& wheel_;
   CentreTree path_;
-  double period_ = 0;
+  double period_ = 0;  // of the encoder's zero, radians; 0 of an open outline
   double rounding_ = 0;
 };
 
@@ -87,12 +90,18 @@ class HoldSearch {
  private:
   using Nodes = std::vector<int>;  // of each finger's first contacts
 
+  /// Looks at a box and its halves.
   void visit(const Nodes& box);
+  /// All of the box is in one of these sets.
   bool is_in(const std::vector<HeldSet>& sets, const Nodes& box) const;
+  /// False: no first contacts of the box fit, for certain.
   bool may_fit(const Nodes& box);
+  /// The part's headings at an instant, unwrapped; nothing: none is left.
   std::optional<Interval> headings(const Nodes& box, std::size_t instant);
+  /// What the chord between two fingers' contacts leaves of the headings.
   bool keep_chord(const Nodes& box, std::size_t instant, std::size_t one, std::size_t other, double base,
                   Interval& offsets);
+  /// Whether all wheels can touch at these headings.
   bool may_touch(const Nodes& box, std::size_t instant, const Interval& heading, std::vector<Zeros>& zeros);
   void add_undecided(const Nodes& box);
 
@@ -101,8 +110,8 @@ class HoldSearch {
   std::deque<PinLook>& wheels_;
   std::vector<HeldSet> listed_;
   std::vector<HeldSet> open_;
-  std::deque<FirstContacts> contacts_;
-  std::vector<std::size_t> order_;  // instants
+  std::deque<FirstContacts> contacts_;  // of each finger
+  std::vector<std::size_t> order_;      // instants
   double rounding_ = 0;
   HoldCovered covered_;
 };

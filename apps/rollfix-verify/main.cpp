@@ -9,6 +9,7 @@
 
 namespace {
 
+// What scripts may rely on.
 enum ExitCode { proved = 0, refused = 1, bad_input = 2, incomplete = 3 };
 
 constexpr const char* kHelp =
@@ -16,6 +17,7 @@ constexpr const char* kHelp =
     "Proves again what a certificate of `rollfix locate --certify` claims; -: from stdin.\n"
     "Exit codes: 0 proved, 1 refused, 2 bad usage or input, 3 proved but for cells that exclude nothing.\n";
 
+/// Throws std::runtime_error where the output can't take it: an answer that nobody gets is no success.
 void print(const std::string& text) {
   std::cout << text << std::flush;
   if (!std::cout) throw std::runtime_error("standard output can't be written to");
@@ -35,6 +37,7 @@ std::string read(const std::string& path) {
 
 }  // namespace
 
+/// Exit codes: see docs/certificates.md. What is no certificate is bad input, like a wrong argument.
 int main(int count, char** arguments) {
   if (count != 2) {
     std::cerr << kHelp;
@@ -49,6 +52,7 @@ int main(int count, char** arguments) {
     const rollfix_verify::Verdict verdict = rollfix_verify::check(read(argument));
     print(rollfix_verify::described(verdict));
     if (!verdict.refusal.empty()) return refused;
+    // Counted cells and kinds are no refusal: the rest of the theorem is proved.
     return verdict.is_complete() ? proved : incomplete;
   } catch (const std::exception& error) {
     std::cerr << "rollfix-verify: " << argument << ": " << error.what() << "\n";

@@ -7,13 +7,15 @@
 #include "budget.hpp"
 #include "document.hpp"
 
-// Notation: (c, rho) is the disc of a node of centres that are left out, (b, sigma) that of a node of the boundary. All
-// of that stretch is inside a finger of radius r at each of those centres if |c - b| + rho + sigma < r. Follows
-// docs/certificates.md, "Touches": P1 is about the places within reach. Idea: what is left out is halved until each
-// part has such a stretch. A flat jaw is the half plane beyond the tangent: all of the stretch is inside of it if
-// n . (b - c) - rho - sigma - 2 |b - c| sin(w / 2) > 0 for the normal n in the middle of the tangents +- w. A finger
-// counts as touching that enters the part by less than a slack, so that where a place is left out the point is as deep
-// as that, and halving ends.
+// Notation:
+//   (c, rho)        the disc of a node of centres that are left out; of a jaw, of contacts
+//   (b, sigma)      the disc of a node of the boundary
+//   n, w            of a jaw: the normal in the middle of the tangents of the node, and half of their interval
+// Follows docs/certificates.md, "Touches": P1 is about the places within reach.
+// Idea: what is left out is halved until some stretch of the boundary is inside of the finger at all of the part.
+// Inside of a disk of radius r is |c - b| + rho + sigma < r. A flat jaw is the half plane beyond the tangent: inside of
+// it is n . (b - c) - rho - sigma - 2 |b - c| sin(w / 2) > 0. A finger counts as touching that enters the part by less
+// than a slack, so that where a place is left out the point is as deep as that, and halving ends.
 namespace rollfix_verify {
 namespace {
 
@@ -41,6 +43,7 @@ std::vector<Interval> without(const Interval& whole, std::vector<Interval> parts
   return rest;
 }
 
+/// Shows that a finger would enter the part wherever it is not said to reach; one use.
 class LeftOut {
  public:
   LeftOut(const Boundary& boundary, double radius, const Considered& considered)
@@ -50,11 +53,14 @@ class LeftOut {
         period_(boundary.perimeter().middle()),
         centres_(boundary, is_jaw_ ? 0 : radius, rest(boundary, considered)) {
     const CentreTree::Node& root = all_.node(all_.root());
+    // The size of the part, by which a jaw's turn moves its points.
     size_ = root.radius;
     least_ = std::min(kLeastOfSize * root.radius, kLeastOfRadius * radius);
     rounding_ = kReachRounding * (std::hypot(root.x, root.y) + root.radius + (is_jaw_ ? 0 : radius));
   }
 
+  /// Depth first over all centres that are left out: each node is shown to be entered, or halved. The first place that
+  /// can't be shown.
   std::optional<double> find() {
     if (centres_.root() < 0) return std::nullopt;
     std::vector<int> waiting{centres_.root()};
@@ -65,6 +71,7 @@ class LeftOut {
       if (is_jaw_ ? is_beyond(node) : is_entered(node)) continue;
       const auto [left, right] = centres_.halves(index);
       const double size = is_jaw_ ? std::max(node.radius, node.half_turn * size_) : node.radius;
+      // As small as it gets: the finger is not shown to enter the part there.
       if (left == right || size <= least_) return node.s.lo;
       waiting.push_back(right);
       waiting.push_back(left);
@@ -77,11 +84,13 @@ class LeftOut {
   Considered rest(const Boundary& boundary, const Considered& considered) const {
     std::vector<Interval> arcs;
     for (const Interval& arc : considered.arcs) {
+      // Arcs may go on beyond the perimeter.
       for (const double lap : boundary.laps()) arcs.push_back({arc.lo + lap, arc.hi + lap});
     }
     Considered result;
     const double slack = kLengthSlack * period_;
     for (const Interval& gap : without({0, period_}, arcs)) {
+      // Gaps within the slack of both ends are rounding.
       if (gap.width() > 2 * slack) result.arcs.push_back(gap);
     }
     for (long curve = 0; curve < boundary.curves(); ++curve) {
@@ -107,7 +116,9 @@ class LeftOut {
       waiting.pop_back();
       const CentreTree::Node node = all_.node(index);
       const double away = std::hypot(centres.x - node.x, centres.y - node.y) + centres.radius + rounding_;
+      // The whole stretch is inside the finger at every centre of the node.
       if (away + node.radius < radius_) return true;
+      // None of it is inside at all centres, or it is too small beside their disc for its halves to tell more.
       if (away - node.radius >= radius_ || node.radius <= kSmallNode * centres.radius) continue;
       const auto [left, right] = all_.halves(index);
       if (left == right) continue;
@@ -123,7 +134,9 @@ class LeftOut {
 
   /// The same of a flat jaw along all these tangents: what is furthest beyond it is asked first.
   bool is_beyond(const CentreTree::Node& contacts) {
+    // The tangents +- w turn a point at distance d by 2 d sin(w / 2) at most.
     const double swing = 2 * std::sin(0.5 * std::min(contacts.half_turn, kHalfCircle));
+    // n . (b - c): how far a point is beyond the line of the jaw, which touches at c along the tangent.
     const auto height = [&](const CentreTree::Node& node) {
       return std::sin(contacts.angle) * (node.x - contacts.x) - std::cos(contacts.angle) * (node.y - contacts.y);
     };

@@ -71,7 +71,9 @@ class PairEquations {
   };
 
  private:
+  /// By which numbers of whole turns the facing may be off; nothing: by none.
   std::optional<std::pair<long, long>> whole_turns(const Stretch& a, const Stretch& b, double bound) const;
+  /// Krawczyk's operator of two equations maps both stretches into themselves.
   bool map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows, double slack) const;
 
   std::vector<Equation> equations_;  // of the readings in order, then of the facing
@@ -105,20 +107,25 @@ class PairLine {
     std::array<std::vector<Place>, 2> contacts;
   };
 
+  /// s' of t.
   double partner(double t) const { return from_[0] + way_ * (t - from_[1]); }
   std::optional<Interval> partners(const Interval& of_b, const Interval& near, double slack) const;
   bool is_same_for_both() const;
+  /// All contacts at a pair of the line.
   std::optional<Row> row(double s) const;
+  /// Of a contact from place to place along the line.
   Series curvature(std::size_t finger, const Place& from, const Place& to) const;
+  /// Each pair between two rows fits, shown by halves.
   bool fit(const PairEquations& equations, const Row& from, const Row& to, double most, int depth) const;
+  /// Of each equation what it is off by, anywhere between two rows.
   std::vector<Ball> off(const PairEquations& equations, const Row& from, const Row& to) const;
 
   const Boundary& boundary_;
   const std::array<std::vector<Ball>, 2>& lengths_;
   double period_;
-  std::array<double, 2> from_;
-  double to_ = 0;   // finger a's last first contact
-  double way_ = 1;  // of finger b as finger a moves ahead
+  std::array<double, 2> from_;  // its first pair
+  double to_ = 0;               // finger a's last first contact
+  double way_ = 1;              // of finger b as finger a moves ahead
   bool is_round_ = false;
 };
 
@@ -164,9 +171,12 @@ class PairBoxes {
 
   template <class Is>
   bool all_of(const Box& box, Cuts cuts, const Is& is);
+  /// Two pairs of stretches that together are the given pair.
   std::optional<Halves> halves(const Stretch& a, const Stretch& b);
+  /// `parts`: looked at so far.
   void prove_apart(const Stretch& a, const Stretch& b, double bound, int depth, std::size_t& parts);
   std::optional<Polygon> remains(const Stretch& a, const Stretch& b, double tolerance, const PairLine* line) const;
+  /// Adds what may fit of two stretches, in parts; false: it can't be told.
   bool add_remains(const Stretch& a, const Stretch& b, double tolerance, const PairLine* line, int depth,
                    std::size_t& parts, std::vector<Polygon>& remains);
 

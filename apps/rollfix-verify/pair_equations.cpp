@@ -5,10 +5,14 @@
 
 #include "budget.hpp"
 
-// Notation: w are an equation's weights of the contacts c; off it is by w . Theta_a(s) - w . Theta_b(t) - right,
-// Theta_a and Theta_b the angles of both fingers' contacts. Bounds on w . Theta are those of finger_curve.cpp.
-// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001) and the facing; docs/certificates.md, "Two fingers", with
-// Krawczyk's operator for the one root (`map_inside`).
+// Notation:
+//   w               an equation's weights of the contacts c
+//   Theta_a(s), Theta_b(t)   the angles of both fingers' contacts
+//   F               w . Theta_a(s) - w . Theta_b(t) - right: what an equation is off by
+//   J, Y            bounds on the slopes of two equations; about the inverse of the middle of J: `j`, `inverse`
+// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001) and the facing; docs/certificates.md, "Two fingers".
+// Idea: bounds on w . Theta are those of finger_curve.cpp. One root is proved by Krawczyk's operator (`map_inside`),
+// all else by equations, and by two of them together, that are off.
 namespace rollfix_verify {
 namespace {
 
@@ -27,6 +31,7 @@ using Linear = PairEquations::Linear;
 
 /// x one + y other.
 Equation sum(double x, const Equation& one, double y, const Equation& other) {
+  // Weights and right sides alike.
   Equation result{one.weights, x * one.right + y * other.right};
   for (std::size_t c = 0; c < one.weights.size(); ++c) result.weights[c] = x * one.weights[c] + y * other.weights[c];
   return result;
@@ -55,6 +60,7 @@ bool some_is_off(const std::vector<Equation>& all, const Stretch& a, const Stret
       for (const Stretch* one : {&a, &b}) {
         const double x = -turn_along(all[l], *one);
         const double y = turn_along(all[k], *one);
+        // False: both turns are 0, and there is no combination to look at.
         const bool is_thin = x != 0 || y != 0;
         if (is_thin && is_off(sum(x, all[k], y, all[l]), (abs(Ball(x)) + abs(Ball(y))) * bound)) return true;
       }
@@ -73,21 +79,26 @@ std::vector<Ball> rates(FingerCurve& curve, const Stretch& stretch, int depth) {
   return first;
 }
 
+/// Of a smooth stretch by arc length, in widths from about the middle; of a pivot by the angle of its widest contact.
+/// `depth`: halvings by which the rates are bounded.
 Linear linear(FingerCurve& curve, const Stretch& stretch, int depth) {
   Linear result;
   if (!stretch.pivot) {
+    // Its end is about the middle, with the contacts' angles there.
     const Stretch& first = curve.halved(stretch).first;
     const Ball width = Ball(stretch.hi) - stretch.lo;
     result.middle = first.to;
     result.rate = rates(curve, stretch, depth);
     for (std::size_t c = 0; c < result.rate.size(); ++c) {
       result.rate[c] = width * result.rate[c];
+      // Between the middle and a place the angle also jumps at smooth joints: by no more than that to either side.
       result.middle[c] = result.middle[c] + stretch.jump[c] - stretch.jump[c];
     }
     result.lo = (Ball(stretch.lo) - first.hi) / width;
     result.hi = (Ball(stretch.hi) - first.hi) / width;
     return result;
   }
+  // Arc length stays; only that contact turns.
   const std::size_t pivoting = stretch.widest();
   const Ball middle = stretch.from[pivoting].middle();
   const Ball width = stretch.turn(pivoting);
@@ -102,6 +113,7 @@ Linear linear(FingerCurve& curve, const Stretch& stretch, int depth) {
 
 }  // namespace
 
+/// Weights by contact, the first one first: -1 and +1 of a reading's first and last contact, +1 of the facing's.
 PairEquations::PairEquations(const std::vector<Ball>& turns, const std::optional<Ball>& facing)
     : has_facing_(facing.has_value()) {
   const std::vector<Ball> none(turns.size() + 1, Ball(0.0));
@@ -120,6 +132,7 @@ std::optional<std::pair<long, long>> PairEquations::whole_turns(const Stretch& a
                                                                 double bound) const {
   if (!has_facing_) return std::pair<long, long>{0, 0};
   const Ball range = equations_.back().off(a, b);
+  // Nothing is known: too many turns, so that the stretches are halved.
   if (!range.is_finite()) return std::pair<long, long>{0, kMostTurns};
   const auto first = static_cast<long>(std::ceil(((Ball(range.lower()) - bound) / full_turn()).lower()));
   const auto last = static_cast<long>(std::floor(((Ball(range.upper()) + bound) / full_turn()).upper()));
@@ -127,12 +140,15 @@ std::optional<std::pair<long, long>> PairEquations::whole_turns(const Stretch& a
   return std::pair<long, long>{first, last};
 }
 
+/// For every number of whole turns that the facing allows some equation, or a combination, is off.
 bool PairEquations::are_apart(const Stretch& a, const Stretch& b, double bound) const {
   Budget::spend(kApartWork * static_cast<double>(count() * count()));
   const std::optional<std::pair<long, long>> turns = whole_turns(a, b, bound);
   if (!turns) return true;
+  // Halving leaves fewer.
   if (turns->second - turns->first >= kMostTurns) return false;
   for (long k = turns->first; k <= turns->second; ++k) {
+    // The facing with this number of whole turns.
     std::vector<Equation> all = equations_;
     if (has_facing_) all.back().right = all.back().right + static_cast<double>(k) * full_turn();
     if (!some_is_off(all, a, b, bound)) return false;
@@ -147,6 +163,7 @@ std::vector<Ball> PairEquations::off(const Stretch& a, const Stretch& b) const {
   return result;
 }
 
+/// From the chords of both fingers. Each coefficient is rounded to a double, and what that leaves is part of `off`.
 std::vector<PairEquations::Plane> PairEquations::planes(const Stretch& a, const Stretch& b) const {
   std::vector<Plane> result;
   for (std::size_t k = 0; k < count(); ++k) {
@@ -155,6 +172,7 @@ std::vector<PairEquations::Plane> PairEquations::planes(const Stretch& a, const 
     Ball at = of_a.from - of_b.from - equations_[k].right;
     const Ball by_a = of_a.to - of_a.from;
     const Ball by_b = of_b.from - of_b.to;
+    // No other number of whole turns is possible: the facing stays within half a turn of 0 on both stretches.
     if (is_facing(k)) {
       const Ball halfway = 0.5 * by_a + 0.5 * by_b;
       const Ball middle = to_nearest_turn(at + halfway);
@@ -173,10 +191,12 @@ std::vector<PairEquations::Plane> PairEquations::planes(const Stretch& a, const 
 
 /// Each says where the difference of the first contacts' tangents is; the facing but for whole turns.
 bool PairEquations::fit_together(const Stretch& a, const Stretch& b, double most) const {
+  // Differences are taken from the middle, so that doubles hold them.
   const Ball base = a.angle(0).middle() - Ball(b.angle(0).middle());
   const Ball all = a.angle(0) - b.angle(0) - base;
   double lo = all.lower();
   double hi = all.upper();
+  // What an equation leaves of the difference of both first contacts' tangents.
   const auto keep = [&](const Ball& difference) {
     lo = std::max(lo, (difference - most).lower());
     hi = std::min(hi, (difference + most).upper());
@@ -186,6 +206,7 @@ bool PairEquations::fit_together(const Stretch& a, const Stretch& b, double most
     if (!is_facing(k)) {
       keep(a.angle(k + 1) - b.angle(k + 1) - right - base);
     } else if (lo <= hi) {
+      // The whole turns nearest to what is left.
       const double middle = 0.5 * (lo + hi);
       keep(middle - to_nearest_turn(middle - (right - base)));
     }
@@ -193,9 +214,12 @@ bool PairEquations::fit_together(const Stretch& a, const Stretch& b, double most
   return lo <= hi;
 }
 
+/// Tried with ever tighter bounds on the rates, and with each two equations.
 bool PairEquations::have_one_root(FingerCurve& curve_a, const Stretch& a, FingerCurve& curve_b, const Stretch& b,
                                   double slack) const {
+  // With two contacts at corners two angles are free at one place: a family, never one root.
   if ((a.pivot && a.pivots != 1) || (b.pivot && b.pivots != 1)) return false;
+  // Cheap bounds first.
   for (int depth = 0; depth <= kRateDepth; ++depth) {
     const Linear of_a = linear(curve_a, a, depth);
     const Linear of_b = linear(curve_b, b, depth);
@@ -214,12 +238,14 @@ bool PairEquations::have_one_root(FingerCurve& curve_a, const Stretch& a, Finger
 bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows,
                                double slack) const {
   Budget::spend(kMapWork);
+  // X is [lo, hi] in both parameters, x is 0.
   const Ball lo[2] = {of_a.lo, of_b.lo};
   const Ball hi[2] = {of_a.hi, of_b.hi};
   Ball j[2][2];
   Ball f[2];
   for (std::size_t k = 0; k < 2; ++k) {
     const auto& [weights, right] = equations_[rows[k]];
+    // F in the middle, open by the slack, and J over all of X.
     f[k] = around_zero(slack) + weighted(weights, of_a.middle) - weighted(weights, of_b.middle) - right;
     j[k][0] = weighted(weights, of_a.rate);
     j[k][1] = -weighted(weights, of_b.rate);
@@ -232,9 +258,11 @@ bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, const std
   }
   const double determinant = j[0][0].middle() * j[1][1].middle() - j[0][1].middle() * j[1][0].middle();
   if (determinant == 0) return false;
+  // Y need not be the exact inverse: the test below proves what it has to.
   const double inverse[2][2] = {{j[1][1].middle() / determinant, -j[0][1].middle() / determinant},
                                 {-j[1][0].middle() / determinant, j[0][0].middle() / determinant}};
   for (int i = 0; i < 2; ++i) {
+    // Krawczyk's image, one coordinate each.
     Ball image = -(Ball(inverse[i][0]) * f[0] + Ball(inverse[i][1]) * f[1]);
     for (int k = 0; k < 2; ++k) {
       const Ball off = Ball(i == k ? 1.0 : 0.0) - (Ball(inverse[i][0]) * j[0][k] + Ball(inverse[i][1]) * j[1][k]);

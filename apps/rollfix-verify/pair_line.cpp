@@ -6,11 +6,14 @@
 
 #include "document.hpp"
 
-// Notation: F(s, t) = A(s) - B(t) are the equations; on the line t = t0 + w (s - s0), w = 1 or -1. Along it
-//   d/ds (A - B) = sum of weights (kappa(s + La_c) - w kappa(t + Lb_c)),
-// a Taylor polynomial in s whose coefficients cancel where the curves that both fingers roll on are the same. Beside it
-// F(s, t) is F(s', t) less the integral of A' from s to s', where (s', t) is on the line. Follows
-// docs/certificates.md, "Two fingers": the proof `family`.
+// Notation:
+//   F(s, t)         A(s) - B(t), the equations
+//   line            t = t0 + w (s - s0), w = 1 or -1: `from_`, `way_`
+//   (s', t)         on the line: `partner`
+//   d/ds (A - B)    sum of weights (kappa(s + La_c) - w kappa(t + Lb_c)) along the line
+// Follows docs/certificates.md, "Two fingers": the proof `family`.
+// Idea: along the line the slope is a Taylor polynomial in s, whose coefficients cancel where the curves that both
+// fingers roll on are the same. Beside it F(s, t) is F(s', t) plus the integral of A' from s' to s.
 namespace rollfix_verify {
 namespace {
 
@@ -21,6 +24,7 @@ constexpr double kLineSplits[] = {0.4990234375, 0.5166015625, 0.4697265625, 0.27
 // A line's places are no further than so many perimeters from the outline's first one.
 constexpr double kFarthest = 4;
 
+/// What smooth joints may add to an equation, at most.
 Ball jumps_of(const std::vector<Ball>& weights, const std::vector<Ball>& jumps) {
   Ball sum = 0.0;
   for (std::size_t c = 0; c < weights.size(); ++c) sum = sum + abs(weights[c]) * abs(jumps[c]);
@@ -29,6 +33,7 @@ Ball jumps_of(const std::vector<Ball>& weights, const std::vector<Ball>& jumps) 
 
 }  // namespace
 
+/// Of slope 1 or -1 to kLengthSlack. Finger a moves ahead along it; a line as long as the perimeter goes round.
 PairLine::PairLine(const Boundary& boundary, const std::array<std::vector<Ball>, 2>& lengths,
                    std::array<double, 2> from, std::array<double, 2> to)
     : boundary_(boundary), lengths_(lengths), period_(boundary.perimeter().middle()) {
@@ -45,6 +50,7 @@ PairLine::PairLine(const Boundary& boundary, const std::array<std::vector<Ball>,
   to_ = to[0];
 }
 
+/// Whether finger b's place t is paired with one at s, within the slack.
 bool PairLine::holds(double s, double t, double slack) const {
   const std::optional<Interval> found = partners({t, t}, {s, s}, slack);
   return found && Interval{s, s}.holds(*found, slack);
@@ -56,10 +62,12 @@ std::optional<Interval> PairLine::partners(const Interval& of_b, const Interval&
   const double round = kRounding * period_;
   Interval found{partner(of_b.lo), partner(of_b.hi)};
   if (way_ < 0) std::swap(found.lo, found.hi);
+  // By whole laps, so that the middle is nearest to another one.
   const auto move_to = [&](double middle) {
     const double lap = boundary_.closed() ? std::round((middle - 0.5 * (found.lo + found.hi)) / period_) : 0;
     found = {found.lo + lap * period_, found.hi + lap * period_};
   };
+  // Next to the line itself first, for its ends; then next to the place that is asked about.
   move_to(0.5 * (from_[0] + to_));
   if (!is_round_ && !Interval{from_[0], to_}.holds(found, slack)) return std::nullopt;
   move_to(0.5 * (near.lo + near.hi));
@@ -73,8 +81,10 @@ bool PairLine::is_same_for_both() const {
                     [](const Ball& a, const Ball& b) { return abs(a - b).upper() == 0; });
 }
 
+/// All contacts of both fingers at the pair of the line that starts at s; nothing where one can't be told from a joint.
 std::optional<PairLine::Row> PairLine::row(double s) const {
   Row result{s, {}};
+  // Both first contacts: finger b's moves by w times what finger a's does.
   const std::array<Ball, 2> first = {s, Ball(from_[1]) + way_ * (Ball(s) - from_[0])};
   for (std::size_t finger = 0; finger < 2; ++finger) {
     for (const Ball& length : lengths_[finger]) {
@@ -86,6 +96,8 @@ std::optional<PairLine::Row> PairLine::row(double s) const {
   return result;
 }
 
+/// Equal rolls from equal places: each equation is its right side, no computation is needed. Else by halves along the
+/// line, a little beyond its ends.
 bool PairLine::fits(const PairEquations& equations, double most) const {
   if (is_same_for_both()) {
     for (std::size_t k = 0; k < equations.count(); ++k) {
@@ -100,6 +112,7 @@ bool PairLine::fits(const PairEquations& equations, double most) const {
     const std::optional<Row> to = row(to_ + round);
     return from && to && fit(equations, *from, *to, most, 0);
   }
+  // A line that goes round has no ends: it is begun where no contact is at a joint.
   for (const double share : kLineSplits) {
     const std::optional<Row> from = row(from_[0] + share * period_);
     const std::optional<Row> to = row(from_[0] + (1 + share) * period_ + kRounding * period_);
@@ -108,7 +121,7 @@ bool PairLine::fits(const PairEquations& equations, double most) const {
   return false;
 }
 
-/// By what is ahead; beyond joints only where all of them are.
+/// kappa of a contact as a series in the arc length that finger a moves ahead. Across joints only bounds on it.
 Series PairLine::curvature(std::size_t finger, const Place& from, const Place& to) const {
   const bool is_back = finger == 1 && way_ < 0;
   if (from.curve != to.curve) {
@@ -116,17 +129,20 @@ Series PairLine::curvature(std::size_t finger, const Place& from, const Place& t
   }
   Series result = with_remainder(boundary_.curvature_ahead(from.curve, from.u),
                                  boundary_.curvature_ahead(from.curve, hull(from.u, to.u)), kOrder - 1);
+  // Finger b moves backwards: odd powers of the way change their sign.
   for (slong power = 1; is_back && power < kOrder; power += 2) result.set(power, -result[power]);
   return result;
 }
 
 /// Each equation at the first row; how much it changes up to the second one at the most.
 std::vector<Ball> PairLine::off(const PairEquations& equations, const Row& from, const Row& to) const {
+  // From 0 to the length of this stretch.
   const Ball ahead = up_to(Ball(to.s) - from.s);
   std::array<Stretch, 2> at;
   std::array<std::vector<Series>, 2> bends;
   std::array<std::vector<Ball>, 2> turned;
   for (std::size_t finger = 0; finger < 2; ++finger) {
+    // The first row as a place, for its angles.
     at[finger].pivot = true;
     for (std::size_t c = 0; c < lengths_[finger].size(); ++c) {
       const Place& first = from.contacts[finger][c];
@@ -142,8 +158,10 @@ std::vector<Ball> PairLine::off(const PairEquations& equations, const Row& from,
     const std::vector<Ball>& weights = equations.all()[k].weights;
     Series slope;
     for (std::size_t c = 0; c < weights.size(); ++c) {
+      // d(A - B)/ds: finger b's part with the direction in which it moves.
       slope = slope + Series(weights[c]) * (bends[0][c] - Series(way_) * bends[1][c]);
     }
+    // Smooth joints may lie anywhere in between.
     const Ball jumped = jumps_of(weights, turned[0]) + jumps_of(weights, turned[1]);
     result[k] = result[k] + ahead * value(slope, ahead) + around_zero(jumped);
   }
@@ -172,9 +190,12 @@ bool PairLine::fit(const PairEquations& equations, const Row& from, const Row& t
 
 std::optional<Polygon> PairLine::beside(const FingerCurve& curve_a, const PairEquations& equations, const Stretch& a,
                                         const Stretch& b, double tolerance) const {
+  // A pivot has no slope: nothing can be said beside the line.
   if (a.pivot || b.pivot) return std::nullopt;
+  // s' of all t in stretch b; without it some t has no partner.
   const std::optional<Interval> pairs = partners({b.lo, b.hi}, {a.lo, a.hi}, kRounding * period_);
   if (!pairs) return std::nullopt;
+  // The curvatures on all from s to s'.
   const std::optional<Stretch> all = curve_a.plain(std::min(a.lo, pairs->lo), std::max(a.hi, pairs->hi));
   if (!all) return std::nullopt;
   const double farthest = std::max({pairs->hi - a.lo, a.hi - pairs->lo, 0.0});
@@ -185,15 +206,19 @@ std::optional<Polygon> PairLine::beside(const FingerCurve& curve_a, const PairEq
     slopes.push_back(weighted(equations.all()[k].weights, all->rate));
     jumped.push_back(jumps_of(equations.all()[k].weights, all->jump));
     if (!slopes[k].is_finite()) return std::nullopt;
+    // Both ends are within the tolerance, so that the integral is at most twice that, and joints between.
     const Ball most = 2 * tolerance + jumped[k];
     const bool is_plain = !equations.is_facing(k) || (abs(slopes[k]) * farthest + most).is_below(0.5 * full_turn());
+    // |s - s'| min |A'| <= most.
     if (is_plain && sign_of(slopes[k]) != 0) reach = std::min(reach, (most / abs(slopes[k])).upper());
   }
   for (std::size_t k = 0; k < equations.count(); ++k) {
+    // All within reach must be near to fitting, for the sets of a placement are.
     if (!((abs(slopes[k]) * reach + tolerance + jumped[k]).upper() <= kNear * tolerance)) return std::nullopt;
   }
   const double at = (way_ < 0 ? pairs->hi : pairs->lo) - a.lo;
   const double most = reach + 2 * kRounding * period_;
+  // The strip |s - s'(t)| <= reach, in shares of both stretches.
   Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   set = clipped(set, at, {-a.width(), way_ * b.width()}, most);
   return clipped(set, -at, {a.width(), -way_ * b.width()}, most);

@@ -38,7 +38,7 @@ constexpr int kMostLooks = 200;
 // One node beside one box, in expansions; a box.
 constexpr double kComparison = 1e-3;
 constexpr double kBox = 4e-3;
-/// The values of |p| cos over middle +- half.
+/// The values of length cos(x), x within `half` of the middle.
 Interval cosines(double middle, double half, double length) {
   if (half >= 0.5 * kTurn) return {-length, length};
   const double one = std::cos(middle - half);
@@ -58,6 +58,8 @@ struct PoseSearch::View {
   double place, swing;   // |b| and 2 sin(h / 2)
 };
 
+/// Moves the touches so that their middle is the origin: the part's turn about it moves none of them further than its
+/// distance from there.
 PoseSearch::PoseSearch(CentreTree& tree, std::vector<SoughtTouch> touches, std::vector<PoseBox> listed,
                        std::optional<LeftOpen> open)
     : tree_(tree), touches_(std::move(touches)), listed_(std::move(listed)), open_(std::move(open)) {
@@ -70,6 +72,7 @@ PoseSearch::PoseSearch(CentreTree& tree, std::vector<SoughtTouch> touches, std::
     y_ += touch.y / count;
     largest = std::max({largest, std::abs(touch.x), std::abs(touch.y), touch.length});
   }
+  // v_i from here on.
   for (SoughtTouch& touch : touches_) {
     touch.x = touch.has_place ? touch.x - x_ : 0;
     touch.y = touch.has_place ? touch.y - y_ : 0;
@@ -79,6 +82,7 @@ PoseSearch::PoseSearch(CentreTree& tree, std::vector<SoughtTouch> touches, std::
   rounding_ = kRoundings * (4 * largest + part);
 }
 
+/// The first box: all headings, and all places of the part's point at q_0 that some touch leaves.
 Covered PoseSearch::run() {
   covered_ = {};
   stack_.assign(touches_.size(), tree_.root());
@@ -92,6 +96,7 @@ Covered PoseSearch::run() {
     all_have = all_have && touch.has_place;
     if (!touch.has_place) continue;
     any_place = true;
+    // The part's point at q_i is within the part's disc and the tolerance, and q_0 is |v_i| from it.
     reach = std::min(reach, root.radius + touch.length + std::hypot(touch.x, touch.y));
   }
   const double half = 0.5 * kTurn * (1 + kAngleRounding);
@@ -102,6 +107,7 @@ Covered PoseSearch::run() {
   reach += 2 * rounding_;
   if (!(reach < std::numeric_limits<double>::infinity())) refuse("an outline without a size");
   std::vector<Interval> headings;
+  // Contacts without a place confine the heading alone; so that is done first, once for all places.
   if (all_have) headings.push_back({-half, half});
   if (!all_have) add_headings({-half, half}, lists, headings);
   for (const Interval& heading : headings) {
@@ -114,6 +120,7 @@ Covered PoseSearch::run() {
 /// free to slide.
 void PoseSearch::add_headings(const Interval& headings, const std::vector<List>& lists, std::vector<Interval>& left) {
   Budget::spend(kBox);
+  // A box of headings, at any place.
   const View at = view({Interval{0, 0}, {0, 0}, headings});
   const std::size_t top = stack_.size();
   std::vector<List> own = lists;
@@ -127,6 +134,7 @@ void PoseSearch::add_headings(const Interval& headings, const std::vector<List>&
   const auto is_listed = [&](const View& one) {
     return std::any_of(listed_.begin(), listed_.end(), [&](const PoseBox& box) { return holds_heading(box, one); });
   };
+  // Small enough, or listed as a whole: it is kept, joined with its neighbour if both are in one set.
   if (may_fit && (turn <= kHeadingShare || is_listed(at))) {
     left.push_back(headings);
     if (left.size() > 1 && left[left.size() - 2].hi == headings.lo) {
@@ -144,6 +152,7 @@ void PoseSearch::add_headings(const Interval& headings, const std::vector<List>&
   stack_.resize(top);
 }
 
+/// Middle and half widths, rounded outwards; the heading's sine and cosine.
 PoseSearch::View PoseSearch::view(const PoseBox& box) const {
   View view{};
   const auto middle = [](const Interval& one) { return 0.5 * (one.lo + one.hi); };
@@ -161,14 +170,17 @@ PoseSearch::View PoseSearch::view(const PoseBox& box) const {
   return view;
 }
 
+/// In tolerances of the touch: of its place and of its tangent.
 double PoseSearch::node_size(std::size_t touch, const CentreTree::Node& node) const {
   const SoughtTouch& one = touches_[touch];
   const double place = one.has_place ? node.radius / one.length : 0;
   return one.tangent ? std::max(place, node.half_turn / one.angle) : place;
 }
 
+/// The inequalities of the notation. False is certain.
 bool PoseSearch::may_hold(const View& view, std::size_t touch, const CentreTree::Node& node) const {
   const SoughtTouch& one = touches_[touch];
+  // y + R(-phi) v_i - c, in the middle of the box.
   const double dx = view.x + view.cosine * one.x + view.sine * one.y - node.x;
   const double dy = view.y + view.cosine * one.y - view.sine * one.x - node.y;
   const double reach = view.place + view.swing * std::hypot(one.x, one.y) + node.radius + one.length + rounding_;
@@ -178,11 +190,13 @@ bool PoseSearch::may_hold(const View& view, std::size_t touch, const CentreTree:
   return !(std::abs(nearest(*one.tangent - node.angle - view.heading)) > most);
 }
 
-/// The nodes of a list that may hold a touch's contact, halved down to the size of the box, as a new list.
+/// A new list of the nodes that may hold the touch's contact, no larger than about the box. False: there is none, and
+/// no pose of the box fits. Smaller boxes start from the list of the larger one: what that has excluded stays excluded.
 bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
   const SoughtTouch& one = touches_[touch];
   const double place = one.has_place ? (view.place + view.swing * std::hypot(one.x, one.y)) / one.length : 0;
   const double size = kNodeShare * (one.tangent ? std::max(place, view.half / one.angle) : place);
+  // The new list is put on top of the stack; the caller drops it by the stack's size.
   const std::size_t top = stack_.size();
   waiting_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(list.first),
                   stack_.begin() + static_cast<std::ptrdiff_t>(list.second));
@@ -193,7 +207,9 @@ bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
     if (!may_hold(view, touch, tree_.node(index))) continue;
     const double spread = one.starts != nullptr ? one.starts->on(index).spread : 0;
     if (one.starts != nullptr && !one.starts->on(index).may_start) continue;
+    // Larger than the box, or not decided for a roll: its halves are looked at.
     if (!(std::max(node_size(touch, tree_.node(index)), spread) <= size)) {
+      // A smallest node stays as it is.
       const auto [left, right] = tree_.halves(index);
       if (left != right) {
         waiting_.push_back(left);
@@ -207,19 +223,22 @@ bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
   return list.first != list.second;
 }
 
+/// All headings of the view, modulo turns, in the box's.
 bool PoseSearch::holds_heading(const PoseBox& box, const View& view) {
   if (box[2].width() >= kTurn) return true;
   const double off = nearest(view.heading - 0.5 * (box[2].lo + box[2].hi));
   return std::abs(off) + view.half <= 0.5 * box[2].width() + kTurnSlack;
 }
 
-/// X = q_0 - R(phi) y: R(phi) turns the middle of y on an arc, and adds what the rest of y is along each axis.
+/// Whether all poses of the box, X = q_0 - R(phi) y, are in one listed extent. R(phi) turns the middle of y on an arc
+/// (`cosines`); the rest of y adds what it is along each axis.
 bool PoseSearch::is_listed(const View& view) const {
   Budget::spend(kComparison * static_cast<double>(listed_.size()));
   const double length = std::hypot(view.x, view.y);
   const double direction = std::atan2(view.y, view.x) + view.heading;
   const Interval x = cosines(direction, view.half, length);
   const Interval y = cosines(direction - 0.25 * kTurn, view.half, length);
+  // Bounds on |cos phi| and |sin phi| over all headings of the box.
   const double c = std::min(1.0, std::abs(view.cosine) + view.swing);
   const double s = std::min(1.0, std::abs(view.sine) + view.swing);
   const double bx = std::min(view.place, c * view.bx + s * view.by) + rounding_;
@@ -232,6 +251,7 @@ bool PoseSearch::is_listed(const View& view) const {
   });
 }
 
+/// Every node on which the contact can be lies on an arc that is left open.
 bool PoseSearch::is_open(const List& list) const {
   return std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(list.first),
                      stack_.begin() + static_cast<std::ptrdiff_t>(list.second), [&](int index) {
@@ -248,6 +268,7 @@ bool PoseSearch::fits_all_on(const View& view, std::size_t touch, int index) {
   if (one.starts != nullptr && !one.starts->on(index).all_start) return false;
   const double x = view.x + view.cosine * one.x + view.sine * one.y;
   const double y = view.y + view.cosine * one.y - view.sine * one.x;
+  // The farthest centre of the node.
   const double far = std::hypot(x - node.x, y - node.y) + node.radius + rounding_;
   if (one.has_place && !(far <= one.length)) return false;
   if (!one.tangent) return true;
@@ -278,6 +299,7 @@ bool PoseSearch::fits_in_the_middle(const View& view, const std::vector<List>& l
   for (std::size_t touch = 0; touch < touches_.size(); ++touch) {
     const auto [from, to] = lists[touch];
     bool fits = false;
+    // One node that fits for certain is enough for the touch.
     for (std::size_t k = from; k < to && !fits; ++k) fits = fits_on(view, touch, stack_[k]);
     if (!fits) return false;
   }
@@ -290,31 +312,37 @@ std::array<double, 2> PoseSearch::sizes(const View& view) const {
   double turn = 0;
   for (const SoughtTouch& touch : touches_) {
     if (touch.has_place) place = std::max(place, view.place / touch.length);
+    // A heading moves a touch by its distance from the middle.
     if (touch.has_place) turn = std::max(turn, view.half * std::hypot(touch.x, touch.y) / touch.length);
     if (touch.tangent) turn = std::max(turn, view.half / touch.angle);
   }
   return {place, turn};
 }
 
+/// One box: no pose of it fits, or it is listed, or left open, or too small to be halved, or both halves are visited.
 void PoseSearch::visit(const PoseBox& box, const std::vector<List>& lists) {
   if (covered_.unlisted || covered_.is_cut_short()) return;
   Budget::spend(kBox);
   ++covered_.boxes;
   const View at = view(box);
+  // Lists of this box stand above those of the larger one, and are dropped when it is done.
   const std::size_t top = stack_.size();
   std::vector<List> own = lists;
   bool may_fit = true;
   for (std::size_t k = 0; k < touches_.size() && may_fit; ++k) may_fit = narrow(at, k, own[k]);
+  // P1 holds of this box.
   if (!may_fit || is_listed(at)) {
     stack_.resize(top);
     return;
   }
+  // Counted, not refused: the certificate itself leaves it open.
   if (open_ && is_open(own[open_->touch])) {
     ++covered_.open;
     stack_.resize(top);
     return;
   }
   const auto [place, turn] = sizes(at);
+  // As small as boxes get. If the pose in its middle certainly fits and is in no set, the certificate is refuted.
   if (std::max(place, turn) <= kLeast) {
     const View middle = view({Interval{at.x, at.x}, {at.y, at.y}, {at.heading, at.heading}});
     if (!is_listed(middle) && fits_in_the_middle(middle, own)) {
@@ -326,6 +354,7 @@ void PoseSearch::visit(const PoseBox& box, const std::vector<List>& lists) {
     stack_.resize(top);
     return;
   }
+  // The axis that is largest in tolerances.
   const std::size_t axis = turn > place ? 2 : at.bx >= at.by ? 0 : 1;
   const double middle = 0.5 * (box[axis].lo + box[axis].hi);
   for (const bool is_upper : {false, true}) {

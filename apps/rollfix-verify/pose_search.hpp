@@ -59,15 +59,22 @@ class PoseSearch {
   using List = std::pair<std::size_t, std::size_t>;
   struct View;
 
+  /// Looks at a box and its halves. `lists`: of the larger box.
   void visit(const PoseBox& box, const std::vector<List>& lists);
   View view(const PoseBox& box) const;
+  /// Shortens a touch's list to the nodes that may hold its contact; false: none does.
   bool narrow(const View& view, std::size_t touch, List& list);
+  /// Whether a node may hold a touch's contact in some pose of the box.
   bool may_hold(const View& view, std::size_t touch, const CentreTree::Node& node) const;
+  /// In tolerances of the touch.
   double node_size(std::size_t touch, const CentreTree::Node& node) const;
+  /// Headings that contacts without a place leave.
   void add_headings(const Interval& headings, const std::vector<List>& lists, std::vector<Interval>& left);
   static bool holds_heading(const PoseBox& box, const View& view);
+  /// All poses of the box are in one listed extent.
   bool is_listed(const View& view) const;
   bool is_open(const List& list) const;
+  /// The box's middle fits all touches for certain.
   bool fits_in_the_middle(const View& view, const std::vector<List>& lists);
   bool fits_on(const View& view, std::size_t touch, int index);
   bool fits_all_on(const View& view, std::size_t touch, int index);
@@ -79,9 +86,9 @@ class PoseSearch {
   std::optional<LeftOpen> open_;
   double x_ = 0;  // the place in the world by whose place on the part boxes are told
   double y_ = 0;
-  double rounding_ = 0;
-  std::vector<int> stack_;
-  std::vector<int> waiting_;
+  double rounding_ = 0;       // what doubles may make of compared lengths
+  std::vector<int> stack_;    // lists of nodes, those of the smallest box on top
+  std::vector<int> waiting_;  // nodes to be looked at
   Covered covered_;
 };
 

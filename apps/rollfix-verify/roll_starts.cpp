@@ -8,11 +8,14 @@
 #include "boundary.hpp"
 #include "document.hpp"
 
-// Notation: Theta(s) is the tangent's angle; of a reading with length L and turn theta
-//   f = Theta(s + L) - alpha - theta,
-// where alpha is the tangent's angle at the start, Theta(s) or at a corner that of the pivot. A roll can have started
-// there if every |f| is within the tolerance: at a convex corner Theta(s + L) may be anything between its two sides.
-// Follows docs/certificates.md, "Touches". Everything is a ball, so that what is excluded is excluded.
+// Notation:
+//   Theta(s)        the tangent's angle
+//   L, theta        of a reading: RollReading
+//   alpha           the tangent's angle at the start: Theta(s), or at a corner that of the pivot
+//   f               Theta(s + L) - alpha - theta: `misses`
+// Follows docs/certificates.md, "Touches".
+// Idea: a roll can have started at a place if every |f| is within the tolerance. At a convex corner Theta(s + L) may be
+// anything between its two sides. Everything is a ball, so that what is excluded is excluded.
 namespace rollfix_verify {
 namespace {
 
@@ -31,15 +34,18 @@ std::vector<Ball> misses(const std::vector<Ball>& ends, const Ball& start, const
   return result;
 }
 
+/// Every possible value is certainly outside.
 bool are_beyond(const std::vector<Ball>& misses, double most) {
   return std::all_of(misses.begin(), misses.end(),
                      [&](const Ball& f) { return f.is_above(most) || f.is_below(-most); });
 }
 
+/// Every possible value is certainly inside.
 bool are_within(const std::vector<Ball>& misses, double most) {
   return std::all_of(misses.begin(), misses.end(), [&](const Ball& f) { return abs(f).is_below(most); });
 }
 
+/// Half the width of the widest set, radians; infinite where nothing is known.
 double widest(const std::vector<Ball>& misses) {
   double most = 0;
   for (const Ball& f : misses) most = f.is_finite() ? std::max(most, 0.5 * spread(f)) : kUnknownSpread;
@@ -57,6 +63,7 @@ RollStarts::RollStarts(const Boundary& boundary, const CentreTree& tree, std::ve
       period_(boundary.perimeter().middle()),
       base_(tree.direction(boundary.front(0))) {}
 
+/// Computed once for each node, and kept.
 const RollStarts::On& RollStarts::on(int node) {
   const auto index = static_cast<std::size_t>(node);
   if (index >= known_.size()) known_.resize(index + 1);
@@ -106,10 +113,12 @@ std::optional<Ball> RollStarts::by_slope(const CentreTree::Node& node, const Rol
   return off + jumps(boundary_, ends);
 }
 
+/// All readings on a node: beyond by one of them excludes it; within by all of them on all of it proves it.
 RollStarts::On RollStarts::look(const CentreTree::Node& node) const {
   if (node.curve < 0) return {true, false, kUnknownSpread};  // of several curves: its halves say
   const Ball from = node.s.lo;
   const Ball to = node.s.hi;
+  // alpha on all of the node, from Theta at s = 0 on.
   const Ball start = Ball(node.angle) + around_zero(node.half_turn) - base_;
   On result{true, true, 0};
   for (const RollReading& reading : readings_) {
@@ -122,6 +131,7 @@ RollStarts::On RollStarts::look(const CentreTree::Node& node) const {
     }
     std::vector<Ball> off = misses(*ends, start, reading.turn);
     if (are_beyond(off, tolerance_)) return {false, false, 0};
+    // Bounds on both tangents do not know that these change together; the slope of f does.
     if (const std::optional<Ball> finer = are_within(off, tolerance_) ? std::nullopt : by_slope(node, reading)) {
       if (are_beyond({*finer}, tolerance_)) return {false, false, 0};
       if (finer->is_finite() && widest({*finer}) < widest(off)) off = {*finer};
@@ -133,6 +143,7 @@ RollStarts::On RollStarts::look(const CentreTree::Node& node) const {
   return result;
 }
 
+/// The test of one stated place: not excluded by any reading, to the slack of stated lengths and angles.
 bool RollStarts::may_start(const Place& place, const Ball& direction) const {
   const Ball own = place.angle;
   const Ball start = own + to_nearest_turn(direction - base_ - own) + around_zero(kTurnSlack);

@@ -34,10 +34,13 @@ class RollStarts {
   bool may_start(const Place& place, const Ball& direction) const;
 
  private:
+  /// Computes `on`.
   On look(const CentreTree::Node& node) const;
+  /// A reading's f over a node by its slope; none: not known.
   std::optional<Ball> by_slope(const CentreTree::Node& node, const RollReading& reading) const;
   std::optional<std::vector<Ball>> ends(const Ball& from, const Ball& to, const Ball& length) const;
   std::optional<Place> clear_of_joints(const Ball& s, int way) const;
+  /// All rolls from between two places end beyond an open outline.
   bool leaves(const Ball& from, const Ball& to, const Ball& length) const;
 
   const Boundary& boundary_;

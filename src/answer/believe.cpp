@@ -16,6 +16,7 @@
 namespace rollfix {
 namespace {
 
+/// Of one row: where each contact is on its finger, and with `has_centres` where the finger is in the world.
 void add_contacts(const Problem& problem, const Observation& observed, std::size_t row, bool has_centres,
                   Sample& sample) {
   const std::vector<FingerRows>& fingers = problem.measured.log->fingers;
@@ -29,6 +30,7 @@ void add_contacts(const Problem& problem, const Observation& observed, std::size
 
 }  // namespace
 
+/// Readings count as lengths and turns from the first contact.
 LogKind kind_of(const Problem& problem) {
   return problem.measured.is_log() ? problem.measured.log->kind : LogKind::travelled;
 }
@@ -44,6 +46,7 @@ void require_noise(const Problem& problem) {
   if (problem.robust) throw InputError("`robust` is about noise: give `noise` as well");
 }
 
+/// 1 / r of a disk, 0 of a jaw; of an outline at the contact, or at u = 0 where the log has no u.
 double finger_curvature(const Problem& problem, std::size_t which, std::size_t row) {
   if (problem.fingers.empty()) return 0;
   // Where u is wrapped makes no difference to the curvature there.
@@ -51,6 +54,8 @@ double finger_curvature(const Problem& problem, std::size_t which, std::size_t r
   return finger_of(problem.fingers, which)->curvature(u);
 }
 
+/// Checks that log and noise go together, then hands the rows to the belief, one sample each. Throws InputError:
+/// position noise or a pose without centres, a pose without u and psi, drift without times.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed) {
   if (!problem.noise) return std::nullopt;
   const std::size_t fingers = observed.readings.front().fingers();
@@ -61,6 +66,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     throw InputError(
         "`noise`: position is of the fingers' centres, expected a log of u and psi with their columns x and y");
   }
+  // At the first contact, which all rows have in common.
   for (std::size_t which = 0; which < fingers; ++which)
     contacts.finger_curvature[which] = finger_curvature(problem, which, 0);
   BeliefOptions options;
@@ -74,6 +80,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.nodes = supposed.nodes;
   options.by_rows = supposed.by_rows;
   options.within = supposed.within;
+  // The first contact of typed readings has no error of its own.
   options.bare = !problem.measured.is_log();
   if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
     const char* const found = !problem.measured.is_log() ? "readings"
@@ -87,11 +94,14 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     throw InputError(
         "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
   }
+  // Below the accuracy of arc lengths on the part it would say nothing.
   if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
   Belief belief(problem.part, kind_of(problem), options, contacts);
   const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();
   require_times(*problem.noise, has_times, problem.measured.is_log() ? problem.measured.log->name : "`readings`");
+  // All rows of a log, not only those of the search.
   const std::vector<Reading>& readings = rows_felt(problem, observed);
+  // Evenly thinned to about `supposed.rows`.
   const std::size_t stride = std::max<std::size_t>(1, readings.size() / std::max<std::size_t>(1, supposed.rows));
   for (std::size_t k = 0; k < readings.size(); k += stride) {
     // On a corner of a finger a row leaves open how its normal is turned.

@@ -30,7 +30,7 @@ constexpr double kSameScale = 3;
 constexpr double kWorthALook = 1.5;
 // An explanation with which the rows are off by this share of what they are without it is better, where none is right.
 constexpr double kMuchBetter = 0.6;
-// No more rows than this share, or this many, are stray.
+// No more rows than this share, or this many, are outliers.
 constexpr double kMostStrayShare = 0.05;
 constexpr double kMostStray = 3;
 // An explanation is the likelier one where its evidence is larger, in steps of this much of a logarithm: what is about
@@ -42,7 +42,7 @@ constexpr double kFarLessLikely = 12;
 constexpr double kMostLeftOpen = 0.5;
 // Rows that are this much less noisy than said are exact.
 constexpr double kLeastNoise = 1e-3;
-// Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand; the
+// Slip of so much per length all along, and five times as much here and there, is rarely stated beforehand; the
 // larger the rarer: the logarithm of the odds against it. The largest explains nearly anything, and takes long: it is
 // tried where nothing else explains the rows.
 struct RareSlip {
@@ -54,6 +54,7 @@ constexpr std::array<RareSlip, 2> kUnsaidSlips = {{{0.04, 6}, {0.2, 18}}};
 // less than this share is left as well.
 constexpr double kShortRoll = 1;
 constexpr double kShareOfShort = 0.5;
+// Of a mistake that makes no roll shorter.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A gyroscope of which nothing is said is off by a few hundredths; that psi is measured by one is rarer.
 constexpr double kUnsaidGyro = 0.03;
@@ -67,6 +68,8 @@ struct Trial {
   double log_evidence = 0;
 };
 
+/// Tries each mistake once and keeps those that explain the rows. The order of trying is the order of how common
+/// mistakes are: the final sort is stable.
 class Diagnostician {
  public:
   Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
@@ -79,6 +82,7 @@ class Diagnostician {
     log_evidence_ = with_noise_as_it_seems(as_said.evidence(), as_said_);
   }
 
+  /// The explanations, the likeliest first; `correlation` or `part` if there is none.
   std::vector<Diagnosis> diagnoses() {
     try_noise();
     if (problem_.prior || problem_.pose) try_prior();
@@ -91,16 +95,19 @@ class Diagnostician {
     try_gyroscope();
     if (!problem_.robust) try_robust();
     try_slip();
+    // Right explanations first, then by evidence in steps.
     std::stable_sort(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
       return a.is_right != b.is_right ? a.is_right : steps_of(a) > steps_of(b);
     });
     std::vector<Diagnosis> found;
     for (Trial& trial : trials_) {
       const Trial& likeliest = trials_.front();
+      // Explanations that only fit better are not listed beside right ones.
       if (trial.is_right != likeliest.is_right) break;
       if (trial.log_evidence > likeliest.log_evidence - kFarLessLikely) found.push_back(std::move(trial.diagnosis));
     }
     if (found.empty()) {
+      // The size of the errors is as stated, only their likeness is not: correlation.
       found.push_back(as_it_is(as_said_.sigmas <= Fit::kMostSigmas ? Cause::correlation : Cause::part));
     }
     return found;
@@ -118,15 +125,17 @@ class Diagnostician {
     return believe(problem, observed, supposed);
   }
 
-  /// How noisy the rows are is not known better than they say themselves: what was said may be too much as well.
+  /// Log evidence, with the noise scaled by k = sqrt(chi^2 / nu), as the rows themselves seem to have it: chi^2 becomes
+  /// nu, and each of nu degrees of freedom costs log k. So explanations with too much noise stated have no advantage.
   static double with_noise_as_it_seems(const Evidence& evidence, const Fit& fit) {
     const double times = std::max(kLeastNoise, std::sqrt(fit.chi_square / std::max(1.0, fit.freedom)));
     const double less = 0.5 * fit.chi_square * (1 - 1 / (times * times));
     return evidence.with(1) + evidence.gathered + less - fit.freedom * std::log(times);
   }
 
-  /// As noisy as they are, the rows may be nothing but that.
+  /// Cause::noise: independent errors, larger than stated by the factor `excess`.
   void try_noise() {
+    // More noise of the rows does not cure what the prior contradicts.
     if (as_said_.prior_sigmas > Fit::kMostSigmas) return;
     // Errors that are alike are what every other mistake looks like as well: they come last.
     if (as_said_.is_correlated()) return;
@@ -134,6 +143,7 @@ class Diagnostician {
     noisier.noise->contact *= as_said_.excess;
     noisier.noise->angle *= as_said_.excess;
     noisier.noise->position *= as_said_.excess;
+    // Beyond that angle a belief is not computed.
     if (!(noisier.noise->angle <= BeliefOptions::kMostAngle)) return;
     // Of two fingers as the answer itself is: what wide noise leaves may be long, and it is the likeliest of all.
     std::optional<Belief> belief = is_of_two() ? believe(noisier, observed_) : by_rows(noisier, observed_);
@@ -142,6 +152,7 @@ class Diagnostician {
     add(std::move(diagnosis), *belief, -std::log(as_said_.excess));
   }
 
+  /// A cause without a cure: no new verdict and no places.
   Diagnosis as_it_is(Cause cause) const {
     Diagnosis diagnosis;
     diagnosis.cause = cause;
@@ -149,6 +160,7 @@ class Diagnostician {
     return diagnosis;
   }
 
+  /// Cause::prior: the rows without what was stated of the first contact or of the part's pose.
   void try_prior() {
     Problem without = problem_;
     without.prior.reset();
@@ -156,8 +168,10 @@ class Diagnostician {
     take(Cause::prior, without);
   }
 
+  /// Units, signs and names of columns; and a part that lies face down.
   void try_slips_of_the_pen() {
     for (const SlipOfThePen& slip : slips_of_the_pen(problem_.measured)) {
+      // A problem of readings has lengths and turns only: `slips_of_the_pen` lists what those can have.
       take(slip.cause, without(slip, problem_), slip.log_stretch, slip.left_of_roll);
     }
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
@@ -178,14 +192,18 @@ class Diagnostician {
   void try_scale(const Whose& whose = std::nullopt) {
     for (const double scale : scales_.worth_a_look(whose)) {
       std::optional<SettledScale> settled = scales_.settled(whose, scale);
+      // Scales that differ from 1 by less than a standard deviation explain nothing; two valleys may settle at one
+      // scale.
       if (!settled || std::abs(settled->scale - 1) < kOtherScale * settled->sd || is_tried(whose, *settled)) continue;
       Diagnosis diagnosis = of(Cause::radius, settled->belief.fit());
       diagnosis.length_scale = settled->scale;
       diagnosis.length_scale_sd = settled->sd;
       diagnosis.finger = whose;
+      // The density of a row stretches with its length: of one of two fingers half of the rows' lengths.
       add(std::move(diagnosis), settled->belief, (whose ? 0.5 : 1) * std::log(settled->scale));
     }
   }
+  /// Whether a trial with the same scale, to some standard deviations, was kept.
   bool is_tried(const Whose& whose, const SettledScale& settled) const {
     return std::any_of(trials_.begin(), trials_.end(), [&](const Trial& trial) {
       const Diagnosis& known = trial.diagnosis;
@@ -194,6 +212,7 @@ class Diagnostician {
     });
   }
 
+  /// A diagnosis with the misfit that is left.
   static Diagnosis of(Cause cause, const Fit& fit) {
     Diagnosis diagnosis;
     diagnosis.cause = cause;
@@ -201,18 +220,21 @@ class Diagnostician {
     return diagnosis;
   }
 
+  /// Cause::stray: a few rows are outliers, all others fit.
   void try_robust() {
     Problem robust = problem_;
     robust.robust = true;
     std::optional<Belief> belief = by_rows(robust, observed_);
     const Fit fit = belief->fit();
     const auto rows = static_cast<double>(belief->samples());
+    // None or too many outliers.
     if (fit.stray < 1 || fit.stray > std::max(kMostStray, kMostStrayShare * rows)) return;
     Diagnosis diagnosis = of(Cause::stray, fit);
     diagnosis.stray = static_cast<std::size_t>(fit.stray);
     add(std::move(diagnosis), *belief);
   }
 
+  /// Cause::gyroscope: turns are wrong by one factor. One finger's logs, unless a scale error was stated.
   void try_gyroscope() {
     const bool is_of_log = problem_.measured.is_log() && problem_.measured.log->fingers.size() == 1;
     if (!is_of_log || problem_.noise->gyro >= kUnsaidGyro) return;
@@ -235,9 +257,12 @@ class Diagnostician {
                        [](const Trial& trial) { return trial.is_right && trial.diagnosis.cause != Cause::noise; });
   }
 
+  /// Cause::slip: lengths are wrong here and there. The smaller slip first; it ends with the first that explains the
+  /// rows.
   void try_slip() {
     for (const auto& [slip, log_odds] : kUnsaidSlips) {
       if (slip <= problem_.noise->slip) continue;
+      // See `kUnsaidSlips`: the largest takes long and explains nearly anything.
       if (slip == kUnsaidSlips.back().slip && is_explained()) return;
       Problem slipping = problem_;
       slipping.noise->slip = slip;
@@ -253,11 +278,12 @@ class Diagnostician {
   void take(Cause cause, const Problem& mended, double log_stretch = 0, double left_of_roll = kInfinity) {
     try {
       const Observation observed = observe(mended);
+      // A few rows first: most mistakes are seen to be none by them.
       const Fit glance = by_rows(mended, observed, kRowsToCompare)->fit();
       if (!std::isfinite(glance.excess)) return;
       if (glance.is_bad() && glance.excess > std::max(kWorthALook, kMuchBetter * glance_excess())) return;
       std::optional<Belief> belief = by_rows(mended, observed);
-      // Of a short roll next to nothing is left that could misfit.
+      // Of a short roll little is left that could misfit: a fit that is too good explains nothing.
       const Fit& fit = belief->fit();
       if (left_of_roll < kShortRoll && fit.chi_square < kShareOfShort * fit.freedom) return;
       Diagnosis diagnosis = of(cause, belief->fit());
@@ -268,6 +294,7 @@ class Diagnostician {
   }
 
   /// What the rows leave as they are, by a few of them.
+  /// Computed when it is first needed.
   double glance_excess() {
     if (glance_excess_ <= 0) glance_excess_ = by_rows(problem_, observed_, kRowsToCompare)->fit().excess;
     return glance_excess_;
@@ -276,6 +303,7 @@ class Diagnostician {
   /// Counts where it explains the rows, which is returned, or explains them much better.
   bool add(Diagnosis diagnosis, Belief& belief, double log_stretch = 0, double log_odds_against = 0) {
     const Fit& fit = belief.fit();
+    // Right: the rows fit. Better: they are off by much less, and their errors are independent.
     const bool is_right = !fit.is_bad();
     const bool is_better = !fit.is_correlated() && fit.excess < kMuchBetter * as_said_.excess;
     if (!is_right && !is_better) return false;
@@ -286,6 +314,7 @@ class Diagnostician {
     const bool is_empty = verdict_.name != Verdict::unobservable &&
                           (diagnosis.verdict.name == Verdict::unobservable || belief.rest() > kMostLeftOpen);
     if (diagnosis.modes.empty() || is_empty) return false;
+    // In the numbers as they were given: the density is stretched by the mistake, for each degree of freedom.
     const double log_evidence =
         with_noise_as_it_seems(belief.evidence(), fit) + fit.freedom * log_stretch - log_odds_against;
     diagnosis.log_odds = log_evidence - log_evidence_;
@@ -296,9 +325,9 @@ class Diagnostician {
   bool is_of_two() const { return rows_felt(problem_, observed_).front().fingers() == 2; }
 
   const Problem& problem_;
-  const Observation& observed_;
+  const Observation& observed_;  // of the problem as it was stated
   LengthScales scales_;
-  Fit as_said_;
+  Fit as_said_;              // of the rows without any mistake mended
   double log_evidence_ = 0;  // with it, and with as much noise as the rows seem to have
   Verdict verdict_;          // with it
   std::vector<Trial> trials_;
@@ -307,6 +336,7 @@ class Diagnostician {
 
 }  // namespace
 
+/// Nothing where the rows fit.
 std::vector<Diagnosis> diagnose(const Problem& problem, const Observation& observed, Belief& belief) {
   if (!belief.fit().is_bad()) return {};
   const Doing doing("looking for what explains the misfit");

@@ -30,7 +30,7 @@ struct SlipOfThePen {
                                                                   // columns still go, radians
 };
 
-/// Those that what was felt may have.
+/// The mistakes that are possible in these measurements.
 std::vector<SlipOfThePen> slips_of_the_pen(const Measurement& measured);
 
 /// The problem as it is without that mistake.

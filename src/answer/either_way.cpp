@@ -24,6 +24,7 @@ void append(Entries& all, const Entries& more) {
 
 /// What is of the search, and what the fingers can't do.
 void add_search(const Answer& other, Answer& answer) {
+  // Placements know which way they are of.
   append(answer.placements, other.placements);
   append(answer.impossible, other.impossible);
   append(answer.unresolved, other.unresolved);
@@ -35,6 +36,7 @@ void add_search(const Answer& other, Answer& answer) {
   if (other.status == Status::incomplete) answer.status = Status::incomplete;
 }
 
+/// Whether some placement is not contradicted by the rows.
 bool fits(const Answer& answer) {
   return std::any_of(answer.placements.begin(), answer.placements.end(),
                      [](const Placement& placement) { return !placement.is_contradicted; });
@@ -46,20 +48,24 @@ void drop_other_way(std::vector<Diagnosis>& diagnoses) {
   const auto is_other_way = [](const Diagnosis& one) { return one.cause == Cause::length_backwards; };
   diagnoses.erase(std::remove_if(diagnoses.begin(), diagnoses.end(), is_other_way), diagnoses.end());
   if (!diagnoses.empty()) return;
+  // No other explanation is left: the part.
   diagnoses.emplace_back();
   diagnoses.back().cause = Cause::part;
 }
 
 /// Without noise: everything that fits, either way.
+/// The verdict and diagnoses are those of the way that fits; where both fit, or the search gave up, of all placements.
 Answer either_searched(Answer one, const Answer& other) {
   const bool one_fits = fits(one);
   const bool other_fits = fits(other);
+  // The first way is contradicted: what is said of it does not matter.
   if (other_fits && !one_fits) {
     one.verdict = other.verdict;
     one.diagnoses = other.diagnoses;
   }
   add_search(other, one);
   drop_other_way(one.diagnoses);
+  // Contradicted placements last, else by s.
   std::stable_sort(one.placements.begin(), one.placements.end(), [](const Placement& a, const Placement& b) {
     if (a.is_contradicted != b.is_contradicted) return b.is_contradicted;
     return a.start[0] < b.start[0];
@@ -71,16 +77,19 @@ Answer either_searched(Answer one, const Answer& other) {
 }
 
 /// The probability that the roll went the second way, and not the first.
+/// Bayes with equal priors: 1 / (1 + e^(E_1 - E_2)), E the log evidence of each way.
 double probability_of_other(const Weighing& one, const Weighing& other) {
   // Of both as with the noise that the rows of the one that fits better seem to have.
   const bool is_better = one.fit.excess <= other.fit.excess;
   const double widened = (is_better ? one : other).fit.widened;
   const double with_one = one.evidence.with(widened);
   const double with_other = other.evidence.with(widened);
+  // Neither way explains the rows at all.
   if (!std::isfinite(with_one) && !std::isfinite(with_other)) return is_better ? 0 : 1;
   return 1 / (1 + std::exp(with_one - with_other));
 }
 
+/// Multiplies all probabilities of one way by that way's own.
 void scale(Answer& answer, double share) {
   for (Placement& placement : answer.placements) placement.probability *= share;
   Weighing& weighing = *answer.weighing;
@@ -90,6 +99,7 @@ void scale(Answer& answer, double share) {
   }
 }
 
+/// The density's pieces of both ways by rising s; pieces of both ways may overlap.
 void add_weighing(Weighing& other, Weighing& weighing) {
   weighing.rest += other.rest;
   append(weighing.improbable, other.improbable);
@@ -101,7 +111,7 @@ void add_weighing(Weighing& other, Weighing& weighing) {
   }
 }
 
-/// What is next to impossible because the roll went the other way is not listed.
+/// Placements that are improbable because the roll went the other way are not listed.
 void drop_improbable(Answer& answer) {
   Weighing& weighing = *answer.weighing;
   double likeliest = 0;
@@ -124,15 +134,19 @@ Verdict verdict_of(const Answer& both, const Verdict& likelier, const Verdict& o
   const auto verdict_on = [&](const Placement& placement) -> const Verdict& {
     return placement.clockwise == likelier_is_clockwise ? likelier : other;
   };
+  // The places that remain: one that is sure, else all that count.
   const std::size_t count = how_many_remain(both.placements, &Placement::probability);
   if (count == 1) return verdict_on(both.placements.front());
   std::array<bool, 2> counts{};
   for (std::size_t k = 0; k < count; ++k) {
+    // [0]: some of them are of the likelier way, [1]: of the other one.
     counts.at(both.placements[k].clockwise == likelier_is_clockwise ? 0 : 1) = true;
   }
   Verdict verdict = likelier;
+  // All of one way: its own verdict holds.
   if (!counts[1]) return verdict;
   verdict.fits_badly |= other.fits_badly;
+  // One way fits everywhere: together the place is no better known.
   if (likelier.name == Verdict::unobservable || other.name == Verdict::unobservable) {
     verdict.name = Verdict::unobservable;
     return verdict;
@@ -144,13 +158,16 @@ Verdict verdict_of(const Answer& both, const Verdict& likelier, const Verdict& o
 }
 
 /// With noise: the likelier way first.
+/// Each way's answer, weighed by its probability. A way that is inconsistent has none if the other is not.
 Answer either_weighed(Answer one, Answer other) {
   const bool one_fits = one.verdict.name != Verdict::inconsistent;
   const bool other_fits = other.verdict.name != Verdict::inconsistent;
   double of_other = probability_of_other(*one.weighing, *other.weighing);
+  // The way that fits is certain where the other one does not.
   if (one_fits != other_fits) of_other = other_fits ? 1 : 0;
   scale(one, 1 - of_other);
   scale(other, of_other);
+  // What is one for both ways (readings aside) is taken from the likelier one.
   const bool is_clockwise = of_other > 0.5;
   Answer& likelier = is_clockwise ? other : one;
   Answer& unlikelier = is_clockwise ? one : other;

@@ -37,33 +37,40 @@ namespace {
 // 95 % of a normal distribution are within so many standard deviations.
 constexpr double kWithin = 1.96;
 
+/// Leads places of the base back to the first contacts: s = s_base - L, of each finger. With noise standard deviations
+/// and intervals grow by what the way itself is off.
 class WayBack {
  public:
   WayBack(const PerFinger<double>& length, const Part& part, const Noise& noise)
       : part_(part), length_(length), noise_(noise) {}
 
+  /// First contacts of a place of the base, reduced to the outline.
   PerFinger<double> place(PerFinger<double> at) const {
     for (std::size_t k = 0; k < at.size(); ++k) at[k] = part_.boundary().canonical(at[k] - length_[k]);
     return at;
   }
 
+  /// Likewise an arc; the whole outline stays whole.
   Interval arc(const Interval& there, std::size_t finger) const {
     const Boundary boundary = part_.boundary();
     return boundary.is_full(there) ? there : boundary.arc(there.lo - length_[finger], there.hi - length_[finger]);
   }
 
+  /// All places of a placement; points and tangents are those of the new places.
   void move(Placement& placement) const {
     placement.start = place(placement.start);
     for (PerFinger<double>& root : placement.roots) root = place(root);
     for (PerFinger<double>& pair : placement.family) {  // unwrapped
       for (std::size_t k = 0; k < pair.size(); ++k) pair[k] -= length_[k];
     }
+    // It was the angle at the base's contact; that of the first contact is another one.
     placement.pivot.reset();
     for (std::size_t k = 0; k < placement.start.size(); ++k) {
       placement.extent[k] = arc(placement.extent[k], k);
       placement.point[k] = part_.point(placement.start[k]);
       placement.tangent[k] = part_.tangent(placement.start[k]);
     }
+    // Probabilities are NaN without noise.
     if (!std::isnan(placement.probability)) move_belief(placement);
   }
 
@@ -77,6 +84,8 @@ class WayBack {
   }
 
  private:
+  /// Mean, standard deviation, covariance and 95 % interval; the errors of the way are independent of those of the
+  /// base.
   template <class Remaining>
   void move_belief(Remaining& one) const {
     one.mean = place(one.mean);
@@ -87,6 +96,7 @@ class WayBack {
       if (one.start.size() == 2) one.covariance(i, i) += of_way * of_way;
       const Interval there = one.interval[k];
       if (part_.boundary().is_full(there)) continue;
+      // The half width grows as the root of the sum of squares, as a standard deviation does.
       const double beyond = std::hypot(0.5 * there.width(), kWithin * of_way) - 0.5 * there.width();
       one.interval[k] = arc({there.lo - beyond, there.hi + beyond}, k);
     }
@@ -102,7 +112,7 @@ class WayBack {
   }
 
   const Part& part_;
-  PerFinger<double> length_;
+  PerFinger<double> length_;  // from the first contacts to the base
   Noise noise_;
 };
 
@@ -129,6 +139,7 @@ void drop_last(std::size_t count, Sensitivity& sensitivity) {
   for (auto& readings : sensitivity.per_length) drop_last(count, readings);
 }
 
+/// Throws InputError: no row is off all corners.
 [[noreturn]] void refuse_all(const Log& log, bool has_noise) {
   throw InputError(
       fmt::format("{}: in every row, or in all but the first, a finger may be on a corner of its own, where u does not "
@@ -144,6 +155,7 @@ std::size_t last_exact(const std::vector<bool>& on_corners, std::size_t row) {
 
 }  // namespace
 
+/// Linear in the number of rows.
 std::optional<LeadingRows> leading_rows(const Problem& problem) {
   if (!problem.measured.is_log() || problem.fingers.empty()) return std::nullopt;
   const Log& log = *problem.measured.log;
@@ -155,9 +167,11 @@ std::optional<LeadingRows> leading_rows(const Problem& problem) {
   leading.count = static_cast<std::size_t>(first - on_corners.begin());
   // A log ends with a reading: at least one more row.
   if (leading.count + 1 >= log.rows()) {
+    // Without noise the search of one finger takes rows with pivots, so that nothing has to be led over.
     if (problem.noise || log.fingers.size() > 1) refuse_all(log, problem.noise.has_value());
     return std::nullopt;
   }
+  // Places are led back by L alone; turn and pivot are for the readings of the answer.
   const std::vector<Reading> rolls = readings_as_given(log, problem.fingers, noise);
   leading.way = rolls[leading.count];
   for (const double instant : problem.at) {
@@ -168,6 +182,7 @@ std::optional<LeadingRows> leading_rows(const Problem& problem) {
         log.name, instant, log.time[leading.count]));
   }
   if (log.fingers.size() == 1) {
+    // The base as start, the first contact as end: L and theta change their signs, what is left open stays.
     Reading back{-leading.way.length[0], -leading.way.turn};
     back.pivot = leading.way.pivot;
     leading.readings.push_back(back);
@@ -175,6 +190,7 @@ std::optional<LeadingRows> leading_rows(const Problem& problem) {
   return leading;
 }
 
+/// Priors are of the first contact: at the base the same place is L further on.
 Problem without(const LeadingRows& leading, const Problem& problem) {
   Problem result = problem;
   result.measured.log = from_row(*problem.measured.log, leading.count);
@@ -182,6 +198,7 @@ Problem without(const LeadingRows& leading, const Problem& problem) {
   return result;
 }
 
+/// `sensitivity` loses the entries of the leading readings, which `answer.readings` does not contain.
 void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answer& answer) {
   const WayBack way(leading.way.length, problem.part, problem.noise.value_or(Noise{}));
   const auto move_all = [&](std::vector<Placement>& placements) {
@@ -192,15 +209,18 @@ void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answe
   };
   move_all(answer.placements);
   for (Impossible& item : answer.impossible) way.move(item.placement);
+  // What the search left open is led back as well.
   for (PerFinger<Interval>& box : answer.unresolved) {
     for (std::size_t k = 0; k < box.size(); ++k) box[k] = way.arc(box[k], k);
   }
   answer.facing.reset();  // it was the base's
+  // Measured from the first contact again.
   for (Reading& reading : answer.readings) {
     for (std::size_t k = 0; k < reading.length.size(); ++k) reading.length[k] += leading.way.length[k];
     reading.turn += leading.way.turn;
     reading.pivot += leading.way.pivot;
   }
+  // Without noise placements are listed by s, contradicted ones last; a first contact may be on the lap before.
   if (!answer.weighing) {
     const auto earlier = [](const Placement& one, const Placement& two) {
       return std::pair(one.is_contradicted, one.start[0]) < std::pair(two.is_contradicted, two.start[0]);
@@ -215,16 +235,19 @@ void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answe
   }
 }
 
+/// Rows that are asked for (`at`) are taken as they are.
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners) {
   const Log& log = *problem.measured.log;
   std::vector<std::size_t> rows = rows_at(log, problem.at);
   if (problem.noise && !on_corners.empty() && last_exact(on_corners, log.rows() - 1) == 0) refuse_all(log, true);
   if (!problem.at.empty() || on_corners.empty()) return rows;
   if (log.fingers.size() == 1) {
+    // The last row on a corner says a turn within its pivot; the exact row before it says one number.
     const std::size_t exact = last_exact(on_corners, rows.back());
     if (exact > 0 && exact < rows.back()) rows.insert(rows.end() - 1, exact);
     return rows;
   }
+  // Rows may coincide after that, and the first contact itself says nothing.
   for (std::size_t& row : rows) row = last_exact(on_corners, row);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   rows.erase(std::remove(rows.begin(), rows.end(), std::size_t{0}), rows.end());
@@ -232,6 +255,7 @@ std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vecto
   return rows;
 }
 
+/// Only where the last row is on a corner.
 void to_last_contacts(const Observation& observed, const Noise& noise, Answer& answer) {
   if (observed.on_corners.empty() || !observed.on_corners.back()) return;
   const Reading& last = observed.rolls.back();
@@ -252,10 +276,12 @@ constexpr double kBeyondInterval = kFarthestLength - 2;
 // An interval is looked at in so many pieces, so that what is known of a turn is not lost in how far it is open.
 constexpr std::size_t kPieces = 8;
 
+/// What rows on corners say against a box of first contacts, with noise: each allows turns in theta -+ J.
 class RowsOnCorners {
  public:
   RowsOnCorners(const Problem& problem, const LeadingRows& leading, const Observation& observed)
       : turning_(problem.part.turning()) {
+    // Noise of the part included.
     const Noise noise = noise_on(problem.part, *problem.noise);
     const auto errors = [&](const std::vector<Reading>& rows) {
       return errors_of(problem, noise, rows, problem.part.perimeter());
@@ -264,11 +290,13 @@ class RowsOnCorners {
     for (std::size_t k = 0; k < of_leading.size(); ++k) add(leading.readings[k], of_leading[k]);
     const std::vector<RowErrors> of_rolls = errors(observed.rolls);
     for (std::size_t k = 0; k < observed.on_corners.size(); ++k) {
+      // Only rows that were not weighed.
       if (observed.on_corners[k]) add(observed.rolls[k], of_rolls[k]);
     }
     const double contact = std::numbers::sqrt2 * noise.contact;
+    // The standard deviation of a turn: two orientations, the part's own error, and two contacts times curvature.
     turn_ = std::hypot(std::numbers::sqrt2 * noise.angle, noise.part.turn);
-    // A contact that is felt beside where it is has another normal on a disk.
+    // A contact that is measured beside where it is has another normal on a disk.
     for (const Finger& finger : problem.fingers) turn_ = std::hypot(turn_, contact * finger.curvature(0));
   }
 
@@ -278,6 +306,7 @@ class RowsOnCorners {
   double sigmas(const Placement& placement) const {
     const std::size_t fingers = placement.interval.size();
     double least = std::numeric_limits<double>::infinity();
+    // Pieces of the interval, of two fingers of the product of both; 0 can't be undercut.
     for (std::size_t k = 0; k < (fingers == 1 ? kPieces : kPieces * kPieces) && least > 0; ++k) {
       PerFinger<Interval> box = placement.interval;
       std::size_t piece = k;
@@ -297,6 +326,7 @@ class RowsOnCorners {
   }
 
  private:
+  /// z of the worst row from this box. 2 ln n is what the worst of n squares is about by chance.
   double worst(const PerFinger<Interval>& box) const {
     double most = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) most = std::max(most, gap(k, box) / turn_);
@@ -314,6 +344,8 @@ class RowsOnCorners {
     return std::max({0.0, row.turn - row.pivot - turn.hi, turn.lo - row.turn - row.pivot});
   }
 
+  /// All Theta(s + L) - Theta(s), for s in the box and L within `kFarthestLength` standard deviations. Theta at both
+  /// ends is bounded on its own, so that the interval is rather too wide: then a row excludes less.
   Interval turns(std::size_t which, const PerFinger<Interval>& box, std::size_t finger) const {
     const double length = rows_[which].length[finger];
     const double off = kFarthestLength * length_sd_[which];
@@ -348,12 +380,16 @@ bool is_beyond(const Problem& problem) {
 
 }  // namespace
 
+/// Each placement's probability is multiplied by exp(-z^2 / 2), relative to that of the least z; the rest of it goes to
+/// the evidence.
 CornerRowsSay weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const Observation& observed,
                                 Answer& answer) {
   const RowsOnCorners rows(problem, leading, observed);
+  // With robust weighing or a gyroscope's drift a turn may be anything here.
   if (rows.empty() || is_beyond(problem) || answer.placements.empty()) return {};
   std::vector<double> squares;
   for (const Placement& placement : answer.placements) squares.push_back(std::pow(rows.sigmas(placement), 2));
+  // What even the best place is off by lowers the evidence of the whole problem.
   const double least = *std::min_element(squares.begin(), squares.end());
   if (*std::max_element(squares.begin(), squares.end()) == 0) return {};
   answer.weighing->evidence.volume -= 0.5 * least;

@@ -11,7 +11,7 @@
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
 
-// What fingers can't do: reach a place, or be in one another.
+// What fingers can't do: reach a place, or overlap each other.
 // Notation, all of it as the part sees it:
 //   p, Theta     a contact on the part, and the tangent there
 //   N, c(u)      the finger's own normal and its rim where it touches, in its frame
@@ -39,6 +39,7 @@ double extent_of(const Finger& finger) {
 }
 
 /// A finger at one instant when its contact is somewhere on an arc.
+/// `half_turn` and `moved` bound the body's motion for all contacts on the arc and all u within its error.
 struct Lying {
   Pose pose;             // of its frame
   Vec2 contact;          // the middle of the arc
@@ -46,7 +47,10 @@ struct Lying {
   double moved = 0;      // any of its points by no more than this; of a jaw: the contact
 };
 
+/// `u`: where on the finger the contact is, off by `error` at most. Theta on the arc and N at u are intervals; the pose
+/// is that of their middles.
 Lying lying(const Part& part, const Finger& finger, const Interval& arc, double u, double error) {
+  // beta + N = Theta + pi / 2: the finger's normal points into the part.
   const Interval tangents = tangents_over(part, arc);
   const double inward = tangents.middle() + 0.5 * std::numbers::pi;
   const Vec2 contact = part.point(arc.middle());
@@ -60,14 +64,19 @@ Lying lying(const Part& part, const Finger& finger, const Interval& arc, double 
   const double hi = std::clamp(u + error, ends.lo, ends.hi);
   const double rounding = kTouchingRounding * extent_of(finger);
   const Interval normals{finger.normals(lo, rounding).lo, finger.normals(hi, rounding).hi};
+  // The origin is the contact less the turned place on the finger.
   const Pose turned{0, 0, inward - normals.middle()};
   const Vec2 origin = contact - turned.turned(finger.point(0.5 * (lo + hi)));
   const double half_turn = 0.5 * (tangents.width() + normals.width());
+  // A point moves with the contact along the arc and on the finger, and by the turn times its distance from the
+  // contact.
   const double moved = 0.5 * (arc.width() + hi - lo) + half_turn * extent_of(finger);
+  // A jaw has no ends: only its contact's motion is bounded, `least_depth` takes its turn.
   return {{origin.x(), origin.y(), turned.heading}, contact, half_turn, finger.is_jaw() ? 0.5 * arc.width() : moved};
 }
 
-/// By how much a body is beyond the line of a jaw, at least.
+/// A lower bound on how far a body is beyond a jaw's line, over all poses of both. The farther the body's point is
+/// along the line, the more the jaw's turn moves the line there.
 double least_depth(const Lying& jaw, const ConvexBody& body, double body_moved) {
   const double up = jaw.pose.heading + 0.5 * std::numbers::pi;
   const Vec2 arm = body.farthest(up) - jaw.contact;
@@ -75,9 +84,10 @@ double least_depth(const Lying& jaw, const ConvexBody& body, double body_moved) 
   return arm.dot(Vec2(std::cos(up), std::sin(up))) - moved - jaw.half_turn * (arm.norm() + moved);
 }
 
-/// The log's rows, and two fingers in them.
+/// Two fingers in all rows of a log. `length_error`: how far each rolled length and u may be off.
 class Rows {
  public:
+  /// `slack_`: what rounding of contacts, and the uncertain radius of a disk, may make of a depth.
   Rows(const Problem& problem, const Observation& observed, double length_error)
       : part_(problem.part),
         contacts_(*observed.contacts),
@@ -91,6 +101,7 @@ class Rows {
   }
 
   /// Whether both are in one another in some row, from wherever in the box they started.
+  /// One row is enough: fingers that are in each other at one instant never were there.
   bool overlap(const PerFinger<Interval>& box) const {
     for (std::size_t row = 0; row < rolls_.size(); ++row) {
       if (depth(box, row, slack_) > slack_) return true;
@@ -109,6 +120,7 @@ class Rows {
     return found;
   }
 
+  /// Length of the pieces in which a continuum is looked at.
   double piece() const {
     double least = part_.perimeter();
     for (const Finger* finger : fingers_) {
@@ -124,15 +136,18 @@ class Rows {
     const Lying b = at(box, row, 1);
     const ConvexBody of_a(*fingers_[0], a.pose);
     const ConvexBody of_b(*fingers_[1], b.pose);
+    // Two jaws are not asked about.
     if (fingers_[0]->is_jaw()) return least_depth(a, of_b, b.moved);
     if (fingers_[1]->is_jaw()) return least_depth(b, of_a, a.moved);
     const double moved = a.moved + b.moved;
     const Vec2 way = b.contact - a.contact;
+    // Any direction gives an upper bound on the depth: if that is small enough the exact depth is not needed.
     const double straight = depth_along(of_a, of_b, std::atan2(way.y(), way.x()));
     if (straight - moved <= enough) return straight - moved;  // as fingers that press against each other mostly are
     return depth_of_overlap(of_a, of_b, enough + moved) - moved;
   }
 
+  /// In row 0 the contact is the first contact itself, with no length to be off.
   Lying at(const PerFinger<Interval>& box, std::size_t row, std::size_t finger) const {
     const double length = rolls_[row].length[finger];
     const double error = row > 0 ? error_ : 0;
@@ -149,6 +164,7 @@ class Rows {
 };
 
 /// In one another in some row, from wherever in its extent a placement starts.
+/// `placements` keeps the others. If all fingers are disks or jaws, `drop_unreachable` does this instead.
 std::vector<Impossible> drop_overlapping(const Problem& problem, const Observation& observed, double length_error,
                                          std::vector<Placement>& placements) {
   std::vector<Impossible> dropped;
@@ -157,6 +173,7 @@ std::vector<Impossible> drop_overlapping(const Problem& problem, const Observati
   const Rows rows(problem, observed, length_error);
   std::vector<Placement> kept;
   for (Placement& placement : placements) {
+    // A placement goes only if every piece of it overlaps.
     const std::vector<PerFinger<Interval>> boxes = pieces_of(placement, rows.piece());
     if (!std::all_of(boxes.begin(), boxes.end(), [&](const auto& box) { return rows.overlap(box); })) {
       kept.push_back(std::move(placement));
@@ -177,6 +194,7 @@ Finger smallest(const Finger& finger, double radius_sd) {
   return disk(std::max(radius - kFarthestRow * radius_sd, kSmallestDisk * radius));
 }
 
+/// Where each of `count` fingers can touch; computed once if both are alike.
 PerFinger<Reach> reaches_of(const Problem& problem, std::size_t count) {
   const double radius_sd = problem.noise ? problem.noise->radius : 0;
   const Finger a = smallest(problem.fingers.front(), radius_sd), b = smallest(problem.fingers.back(), radius_sd);
@@ -186,6 +204,7 @@ PerFinger<Reach> reaches_of(const Problem& problem, std::size_t count) {
 }
 
 /// How far a rolled length may be off: by its digits, and by its noise.
+/// In the part's unit: the digits, and with noise five standard deviations of the row that is off most.
 double length_error(const Problem& problem, const Observation& observed) {
   const double digits = observed.length_error();
   if (!problem.noise) return digits;
@@ -199,6 +218,7 @@ double length_error(const Problem& problem, const Observation& observed) {
 
 }  // namespace
 
+/// Disks and jaws are tested by reach and overlap along their way; fingers with an outline by overlap alone.
 void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer) {
   const Doing doing("looking where the fingers can reach");
   if (answer.fingers.empty()) return;

@@ -11,12 +11,20 @@
 #include "rollfix/locate.hpp"
 #include "rollfix/solve.hpp"
 
+// Facts of a part: its box, curvatures, the largest finger, its symmetry, and how ambiguous rolls on it are.
+// Notation:
+//   spiral          a stretch on which kappa is monotone and keeps its sign, so that Theta is monotone
+//   P / m           a shift after which the part looks the same: symmetry m
+//   share           a roll of P / share is located again, from starts off any grid
+// Idea: what is extreme is at the ends of spirals, or where Theta is a multiple of 90 degrees. A part repeats after a
+// shift if the reading of length P / m and 1 / m of the whole turn fits everywhere, which the search itself decides.
 namespace rollfix {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
 /// Where on a spiral, on which Theta is monotone, it has this value.
+/// By bisection, until no double is left in between.
 double place_of_angle(const TurningFunction& turning, const Spiral& spiral, double angle) {
   const bool grows = spiral.turn() > 0;
   double lo = spiral.lo;
@@ -35,6 +43,7 @@ Reading reading_of(const Part& part, double s, double length) {
 }
 
 /// Cheap, and true of every part that looks the same after a shift by `shift`.
+/// Samples only: it saves the search for nearly all shifts that are none.
 bool may_repeat_after(const Part& part, double shift) {
   constexpr int kSamples = 16;
   const TurningFunction& turning = part.turning();
@@ -46,12 +55,14 @@ bool may_repeat_after(const Part& part, double shift) {
   return true;
 }
 
+/// A shift is a symmetry if the reading of that length and its share of the whole turn fits all around.
 bool repeats_after(const Part& part, double shift) {
   if (!may_repeat_after(part, shift)) return false;
   const Reading reading{shift, part.turning().period_turn() * shift / part.perimeter()};
   return locate(part, reading).verdict().name == Verdict::unobservable;
 }
 
+/// Averages over `rolls` rolls of P / share.
 Ambiguity ambiguity_of(const Part& part, int share, int rolls) {
   Ambiguity result;
   result.share = share;
@@ -73,6 +84,7 @@ Ambiguity ambiguity_of(const Part& part, int share, int rolls) {
 
 }  // namespace
 
+/// Exact but for rounding, in O(n) spirals.
 BoundingBox bounding_box(const Part& part) {
   const TurningFunction& turning = part.turning();
   BoundingBox box{part.point(0), part.point(0)};
@@ -92,6 +104,7 @@ BoundingBox bounding_box(const Part& part) {
   return box;
 }
 
+/// From the least to the largest kappa, corners left out.
 Interval curvature_range(const Part& part) {
   Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Spiral& spiral : part.turning().spirals()) {
@@ -101,6 +114,7 @@ Interval curvature_range(const Part& part) {
   return range;
 }
 
+/// The radius of the largest disk that rolls everywhere; 0 with concave corners, infinite on a convex part.
 double largest_disk(const Part& part) {
   const auto is_concave = [](const Corner& corner) { return corner.is_concave(); };  // tiny joints are rolled over
   if (std::any_of(part.corners().begin(), part.corners().end(), is_concave)) return 0;
@@ -110,9 +124,12 @@ double largest_disk(const Part& part) {
   return is_concave_somewhere ? 1 / most_concave : std::numeric_limits<double>::infinity();
 }
 
+/// m of an m-fold symmetry, the largest; 1: none; 0: a circle, where every shift is one.
 int symmetry(const Part& part) {
+  // An open outline has ends, which no shift maps onto themselves.
   if (!part.closed()) return 1;
   const Interval range = curvature_range(part);
+  // One curvature all around.
   const bool is_circle = part.corners().empty() && range.width() <= 1e3 * kTurnAccuracy * std::abs(range.hi);
   if (is_circle) return 0;
   // A shift by P/m maps spirals onto spirals.
@@ -122,6 +139,7 @@ int symmetry(const Part& part) {
   return 1;
 }
 
+/// For rolls of P / 16, P / 8, P / 4 and P / 2; fewer rolls on a part with many spirals.
 std::vector<Ambiguity> ambiguity(const Part& part) {
   constexpr std::size_t kMostWork = 20000;  // spirals, summed over the rolls of one length
   constexpr std::size_t kLeastRolls = 4;

@@ -55,6 +55,7 @@ Problem with_lengths(const Problem& problem, const Whose& whose, double scale) {
   return scaled;
 }
 
+/// All lengths k times as long, of the rows and of those searched with.
 Observation with_lengths(const Observation& observed, const Whose& whose, double scale) {
   Observation scaled = observed;
   for (std::vector<Reading>* readings : {&scaled.readings, &scaled.rolls}) {
@@ -67,6 +68,7 @@ Observation with_lengths(const Observation& observed, const Whose& whose, double
   return scaled;
 }
 
+/// Of two fingers the geometric mean.
 double common_scale(const PerFinger<double>& scale) {
   if (scale.size() == 1) return scale[0];
   return std::sqrt(scale[0] * scale[1]);
@@ -74,15 +76,18 @@ double common_scale(const PerFinger<double>& scale) {
 
 }  // namespace
 
+/// Scales k at which chi^2(k) of some rows has a local minimum: the best few, and none that is far worse than the best.
 std::vector<double> LengthScales::worth_a_look(const Whose& whose) const {
   std::vector<std::pair<double, double>> by_cost;
   for (const double scale : all(whose)) {
     std::optional<Belief> belief = belief_with(whose, scale, kRowsToCompare);
+    // A scale with which the rows are no roll at all has no belief.
     if (belief && std::isfinite(belief->fit().chi_square)) by_cost.emplace_back(belief->fit().chi_square, scale);
   }
   std::sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<std::pair<double, double>> valleys;
   for (std::size_t k = 0; k < by_cost.size(); ++k) {
+    // The neighbours in the order of scale; at either end there is one only.
     const bool is_valley = (k == 0 || by_cost[k - 1].first >= by_cost[k].first) &&
                            (k + 1 == by_cost.size() || by_cost[k + 1].first >= by_cost[k].first);
     if (is_valley) valleys.push_back(by_cost[k]);
@@ -91,12 +96,14 @@ std::vector<double> LengthScales::worth_a_look(const Whose& whose) const {
   if (valleys.size() > kScalesToCompare) valleys.resize(kScalesToCompare);
   std::vector<double> found;
   for (const auto& [cost, scale] : valleys) {
+    // The number of rows is added, so that among good fits chance does not decide.
     if (cost <= kCloseCost * (valleys.front().first + kRowsToCompare)) found.push_back(scale);
   }
   return found;
 }
 
-/// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
+/// The scales to try. One finger: in equal ratios, all that the turn allows. Two fingers, whose search takes longer: a
+/// fixed list about 1 and of mistaken units.
 std::vector<double> LengthScales::all(const Whose& whose) const {
   std::vector<double> scales;
   if (rows_felt(problem_, observed_).front().fingers() == 2) {
@@ -112,6 +119,7 @@ std::vector<double> LengthScales::all(const Whose& whose) const {
   return scales;
 }
 
+/// The longest roll must be of a plausible number of laps.
 bool LengthScales::may_be_of_two(double scale) const {
   double longest = 0;
   for (const Reading& row : rows_felt(problem_, observed_)) {
@@ -121,12 +129,15 @@ bool LengthScales::may_be_of_two(double scale) const {
   return laps >= kLeastRollOfTwo && laps <= kMostRollOfTwo;
 }
 
-/// Theta's own range and the turn that was felt confine what a length can be.
+/// Whether lengths can be k times as long. On a closed outline Theta grows by a whole turn a lap and leaves that
+/// straight line by a bounded amount, so that L and theta confine each other; on an open one no roll is longer than the
+/// outline.
 bool LengthScales::may_be(double scale) const {
   const std::vector<Reading>& rows = rows_felt(problem_, observed_);
   const TurningFunction& turning = problem_.part.turning();
   const double P = problem_.part.perimeter();
   if (turn_beyond_ < 0) {
+    // Theta less its average growth, at the ends of all spirals: a rough range, with `kTurnBeyond` to spare.
     double lo = 0;
     double hi = 0;
     const double per_length = turning.period_turn() / P;
@@ -137,6 +148,7 @@ bool LengthScales::may_be(double scale) const {
         hi = std::max(hi, off);
       }
     }
+    // Both ends of a roll may be anywhere in that range.
     turn_beyond_ = 2 * (hi - lo) + kTurnBeyond + kTurnSigmas * problem_.noise->angle;
   }
   if (!problem_.part.closed()) {
@@ -148,6 +160,8 @@ bool LengthScales::may_be(double scale) const {
   });
 }
 
+/// Fixed-point iteration: each belief estimates the factor that is left, which multiplies the scale. It ends when the
+/// factor is 1 to a share of its standard deviation, or after `kMostSteps`.
 std::optional<SettledScale> LengthScales::settled(const Whose& whose, double scale) const {
   std::optional<Belief> belief;
   Fit fit;
@@ -165,6 +179,7 @@ std::optional<SettledScale> LengthScales::settled(const Whose& whose, double sca
   return SettledScale{scale, scale * fit.length_scale_sd[whose.value_or(0)], *std::move(belief)};
 }
 
+/// `rows`: about so many. Nothing where no log can be so.
 std::optional<Belief> LengthScales::belief_with(const Whose& whose, double scale, std::size_t rows) const {
   try {
     return believe(with_lengths(problem_, whose, scale), with_lengths(observed_, whose, scale),

@@ -7,12 +7,16 @@
 #include "rollfix/error.hpp"
 #include "work/crew.hpp"
 
+// Many problems at once, each on its own.
+// Idea: threads take problems in order. The table of answers is made in blocks, one for each `kBlock` problems, and
+// joined at the end: so no thread waits for another, and the result does not depend on their number.
 namespace rollfix {
 namespace {
 
 // Problems that a thread takes at once: so many that taking them costs nothing, so few that all threads end together.
 constexpr std::size_t kBlock = 64;
 
+/// One row of the table: a value for each column, for both fingers where there are two.
 void add_placement(const Placement& placement, AnswerTable& table) {
   table.kind.push_back(static_cast<std::uint8_t>(placement.kind));
   bool whole = true;
@@ -32,6 +36,7 @@ void add_placement(const Placement& placement, AnswerTable& table) {
   table.whole_loop.push_back(whole ? 1 : 0);
 }
 
+/// The rows of one problem are those between two `offsets`.
 void add_answer(const Answer& answer, AnswerTable& table) {
   for (const Placement& placement : answer.placements) add_placement(placement, table);
   table.status.push_back(static_cast<std::uint8_t>(answer.status));
@@ -50,6 +55,7 @@ void add_error(std::size_t k, const std::string& message, AnswerTable& table) {
 }
 
 /// Room for what a block of problems mostly has.
+/// Columns with a value for each problem, for each placement, and for each finger of a placement.
 void reserve(AnswerTable& table) {
   constexpr std::size_t kRows = 6 * kBlock;
   const std::size_t each = kRows * table.fingers;
@@ -61,6 +67,7 @@ void reserve(AnswerTable& table) {
   for (auto* column : {&table.extent, &table.point}) column->reserve(2 * each);
 }
 
+// All columns but `offsets`, which count rows across blocks.
 constexpr auto kColumns = std::make_tuple(
     &AnswerTable::status, &AnswerTable::verdict, &AnswerTable::tolerance, &AnswerTable::errors, &AnswerTable::kind,
     &AnswerTable::start, &AnswerTable::end, &AnswerTable::extent, &AnswerTable::point, &AnswerTable::tangent,
@@ -78,10 +85,12 @@ void join_column(std::vector<AnswerTable>& blocks, Column AnswerTable::*column, 
   }
 }
 
+/// Blocks in the order of the problems; `offsets` go on from block to block.
 AnswerTable joined(std::vector<AnswerTable>& blocks, std::size_t fingers) {
   AnswerTable all;
   all.fingers = fingers;
   for (const AnswerTable& block : blocks) {
+    // A block's offsets begin at 0: its rows come behind those of all blocks before.
     const std::int64_t rows = all.offsets.back();
     for (std::size_t k = 1; k < block.offsets.size(); ++k) all.offsets.push_back(rows + block.offsets[k]);
   }
@@ -91,10 +100,12 @@ AnswerTable joined(std::vector<AnswerTable>& blocks, std::size_t fingers) {
 
 }  // namespace
 
+/// Each problem is solved or has the message of its InputError. Other exceptions end the run: `require_done`.
 std::vector<Solved> solve(std::span<const Problem> problems, const ManyOptions& options) {
   std::vector<Solved> solved(problems.size());
   Crew crew(problems.size(), 1);
   crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+    // Problems of one block, one after the other.
     for (std::size_t k = lo; k < hi; ++k) {
       try {
         solved[k].answer = solve(problems[k]);
@@ -107,9 +118,11 @@ std::vector<Solved> solve(std::span<const Problem> problems, const ManyOptions& 
   return solved;
 }
 
+/// `make` changes a copy of `like` into problem k; each block has its own copy.
 AnswerTable solve_table(const Problem& like, std::size_t count, const ProblemMaker& make, std::size_t fingers,
                         const ManyOptions& options) {
   std::vector<AnswerTable> blocks((count + kBlock - 1) / kBlock);
+  // A block is done by one thread, which alone writes to its table.
   Crew crew(count, kBlock);
   crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
     AnswerTable& table = blocks[lo / kBlock];

@@ -33,8 +33,11 @@ std::vector<double> pivots_of(const Part& part) {
 }
 
 /// How far a length is from the nearest way between two corners: what is missing of it.
+/// With sign: what has to be added to the length. Of each corner as start the two corners next to the end are compared,
+/// O(n log n).
 double to_way_between(const std::vector<double>& corners, const Boundary& boundary, double length) {
   double least = std::numeric_limits<double>::infinity();
+  // Where a roll of that length from this corner ends, and the corners on both sides of it.
   for (const double from : corners) {
     const double end = boundary.on_first_lap(from + length);
     const auto next = std::lower_bound(corners.begin(), corners.end(), end);
@@ -50,6 +53,7 @@ double to_way_between(const std::vector<double>& corners, const Boundary& bounda
 
 }  // namespace
 
+/// Of each finger in the order of the readings: a length that is moved is what the next ones are compared with.
 void put_on_corners(const Part& part, double within, std::vector<Reading>& readings) {
   const std::vector<double> corners = pivots_of(part);
   if (corners.empty() || readings.empty() || !(within > 0)) return;
@@ -58,10 +62,12 @@ void put_on_corners(const Part& part, double within, std::vector<Reading>& readi
     for (Reading& reading : readings) {
       double& length = reading.length[finger];
       double least = std::numeric_limits<double>::infinity();
+      // Any two contacts of the finger may both be at corners, the first one included.
       for (const double before : lengths) {
         const double off = to_way_between(corners, part.boundary(), length - before);
         if (std::abs(off) < std::abs(least)) least = off;
       }
+      // Within what digits can have moved it.
       if (std::abs(least) <= within) length += least;
       lengths.push_back(length);
     }
@@ -70,6 +76,7 @@ void put_on_corners(const Part& part, double within, std::vector<Reading>& readi
 
 namespace {
 
+/// Seconds; empty without times.
 std::vector<double> times_of(const Log& log, const std::vector<std::size_t>& rows) {
   std::vector<double> times;
   if (log.time.empty()) return times;
@@ -77,6 +84,7 @@ std::vector<double> times_of(const Log& log, const std::vector<std::size_t>& row
   return times;
 }
 
+/// Typed readings are searched with as they are.
 Observation observe_readings(const Problem& problem) {
   if (!problem.at.empty()) throw InputError("`at` picks instants of a log: give a `log` as well");
   Observation observed;
@@ -86,9 +94,11 @@ Observation observe_readings(const Problem& problem) {
   return observed;
 }
 
+/// A log's rows: a few to search with, all of them to weigh or to compare, and what u and psi tell of each contact.
 Observation observe_log(const Problem& problem) {
   Observation observed;
   const Log& log = *problem.measured.log;
+  // u and psi know the direction of the stored outline; lengths were counted along the outline as drawn.
   observed.lengths_reversed = problem.part.reversed() && log.kind != LogKind::contact;
   const Noise noise = problem.noise.value_or(Noise{});
   observed.readings = readings(log, problem.part, problem.fingers, problem.at, noise);
@@ -98,6 +108,7 @@ Observation observe_log(const Problem& problem) {
   observed.on_corners = rows_on_corners(log, problem.fingers, noise);
   const std::vector<std::size_t> rows = answer::rows_to_search(problem, observed.on_corners);
   observed.times = times_of(log, rows);
+  // A finger with corners: the rows to search with were chosen by them, and have pivots.
   if (!observed.on_corners.empty()) {
     observed.readings.clear();
     for (const std::size_t row : rows) observed.readings.push_back(observed.rolls[row]);
@@ -123,6 +134,7 @@ double Observation::length_error() const {
 }
 
 Observation observe(const Problem& problem) {
+  // Facing is of readings alone.
   if (problem.measured.is_log() && problem.facing) {
     throw InputError("`facing` goes with `reading`: a log of two fingers has it in u and psi");
   }
@@ -157,6 +169,7 @@ class LastingCurvature {
         run_length = run_most = 0;
         continue;
       }
+      // Short spirals in a row last together as long as they are together; the sharpest one counts for all of them.
       run_length += spiral.hi - spiral.lo;
       run_most = std::max({run_most, std::abs(spiral.start.curvature), std::abs(spiral.end.curvature)});
       if (run_length >= length_) most = std::max(most, run_most);
@@ -165,18 +178,22 @@ class LastingCurvature {
   }
 
  private:
+  /// Long enough for a stretch of that length to reach half of it into the spiral.
   bool is_long(const Spiral& spiral) const { return spiral.hi - spiral.lo >= 0.5 * length_; }
 
   /// A stretch of that length around the sharper end reaches at least half of it into this spiral or the next long one.
   double on_long(std::size_t index) const {
     const Spiral& spiral = spirals_[index];
     const std::size_t count = spirals_.size();
+    // kappa is monotone on a spiral, so that its peak is at one end.
     const bool at_end = std::abs(spiral.end.curvature) > std::abs(spiral.start.curvature);
     const Spiral& beside = spirals_[at_end ? (index + 1) % count : (index + count - 1) % count];
     const double peak = std::abs(at_end ? spiral.end.curvature : spiral.start.curvature);
+    // The run of short spirals beside it counts the rest: no spike can be told here.
     if (!is_long(beside)) return peak;
     const double place = at_end ? spiral.hi - 0.5 * length_ : spiral.lo + 0.5 * length_;
     const double inside = std::abs(turning_.on_spiral(spiral, place).curvature);
+    // Half a length inside: if kappa has fallen to less than half there, the peak does not last.
     return peak > kSpike * inside ? inside : peak;
   }
 
@@ -186,6 +203,7 @@ class LastingCurvature {
 };
 
 /// What the outline's accuracy can make of the turn over any of these rolls, at worst.
+/// Radians: 4.5 standard deviations of both ends' tangents, of what gathers in between, and of the length times kappa.
 double off_on(const Part& part, const std::vector<Reading>& readings) {
   const Accuracy& accuracy = part.outline().accuracy;
   double most = 0;
@@ -221,6 +239,7 @@ Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& r
   return {value, Tolerance::Source::digits};
 }
 
+/// No less than the search's own default.
 Tolerance tolerance_from_noise(double value) {
   return {std::max(value, LocateOptions().tolerance), Tolerance::Source::noise};
 }
@@ -228,6 +247,7 @@ Tolerance tolerance_from_noise(double value) {
 Tolerance tolerance_given(double value) {
   if (!(value >= 0))
     throw InputError(fmt::format("`tolerance`: {} is negative, expected an angle of at least 0", value));
+  // Below it rounding decides; the answer says which was used.
   if (value < kLeastTolerance) return {kLeastTolerance, Tolerance::Source::least};
   return {value, Tolerance::Source::given};
 }

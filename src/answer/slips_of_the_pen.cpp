@@ -7,6 +7,14 @@
 #include "diagnosis.hpp"
 #include "outline/turn.hpp"
 
+// Mistakes in how the columns of a log are read: units, signs, names.
+// Notation:
+//   column          what Rollfix needs, "u", "psi", "turn" ...; `name` what the header calls it, `unit` what was stated
+//   mend            undoes the mistake in the rows that were read: angles times pi / 180, other signs, a swap
+//   stretch         log of the factor by which mending multiplies the numbers of a row: `log_stretch`
+// Follows docs/belief.md, "What may be wrong".
+// Idea: each mistake is a function of the rows, which the diagnosis applies before it weighs them, and a change of the
+// column's unit or name, which is what the user is to type.
 namespace rollfix::answer {
 namespace {
 
@@ -18,12 +26,14 @@ std::string_view base_of(const ColumnSource& source) {
   return column.substr(0, column.find('_'));
 }
 
+/// Whether this cause is that the column is in degrees and was read as radians.
 bool is_in_degrees(std::string_view column, Cause cause) {
   if (column == "u") return cause == Cause::u_degrees || cause == Cause::angles_degrees;
   if (column == "psi") return cause == Cause::psi_degrees || cause == Cause::angles_degrees;
   return cause == Cause::turn_degrees && (column == "turn" || column == "dturn");
 }
 
+/// Whether this cause is that the column is in radians and was read as degrees.
 bool is_in_radians(std::string_view column, Cause cause) {
   if (column == "u") return cause == Cause::u_radians || cause == Cause::angles_radians;
   if (column == "psi") return cause == Cause::psi_radians || cause == Cause::angles_radians;
@@ -35,6 +45,7 @@ std::string with_unit(const std::string& unit, const char* now) {
   return unit.starts_with(kDegrees) ? now + unit.substr(kDegrees.size()) : now;
 }
 
+/// How a column is to be read if that is the mistake; the same as it is where the cause is another column's.
 ColumnSource without(Cause cause, const ColumnSource& source, const FingerRows& rows) {
   ColumnSource mended = source;
   const std::string_view column = base_of(source);
@@ -42,6 +53,7 @@ ColumnSource without(Cause cause, const ColumnSource& source, const FingerRows& 
   if (is_in_radians(column, cause)) mended.unit = with_unit(source.unit, "rad");
   if (cause != Cause::u_psi_swapped || (column != "u" && column != "psi")) return mended;
   const std::string_view other = column == "u" ? "psi" : "u";
+  // A log of contacts has both columns, so that the other one is found.
   const auto found = std::find_if(rows.columns.begin(), rows.columns.end(),
                                   [&](const ColumnSource& one) { return base_of(one) == other; });
   mended.name = found->name;
@@ -60,6 +72,7 @@ bool says_degrees(const std::vector<FingerRows>& fingers, std::string_view colum
   });
 }
 
+/// Columns of both fingers are stated once, by their common name.
 std::vector<ColumnSource> columns_without(Cause cause, const Log& log) {
   std::vector<ColumnSource> columns;
   bool any_changes = false;
@@ -67,10 +80,12 @@ std::vector<ColumnSource> columns_without(Cause cause, const Log& log) {
     for (const ColumnSource& source : rows.columns) {
       const ColumnSource mended = without(cause, source, rows);
       const bool changes = mended.name != source.name || mended.unit != source.unit;
+      // A column that has its own name and no unit needs no mention.
       const bool is_found_anyway = !changes && source.name == source.column && source.unit.empty();
       const bool is_known = std::any_of(columns.begin(), columns.end(),
                                         [&](const ColumnSource& one) { return one.column == mended.column; });
       any_changes = any_changes || changes;
+      // Columns that are read right are listed as well, so that the option can be pasted as it is.
       if (!is_found_anyway && !is_known) columns.push_back(mended);
     }
   }
@@ -79,10 +94,12 @@ std::vector<ColumnSource> columns_without(Cause cause, const Log& log) {
 
 namespace {
 
+// A column of a finger's rows, as a pointer to the member.
 using Column = std::vector<double> FingerRows::*;
 
 /// `power`: 1 for degrees that were taken for radians, -1 for radians that were taken for degrees.
 SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<Column>& columns) {
+  // What the numbers have to be multiplied by.
   const double factor = power > 0 ? kDegree : 1 / kDegree;
   const auto mend = [factor, columns](FingerRows& rows) {
     for (const Column column : columns) {
@@ -92,15 +109,20 @@ SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<Column>& 
   return {cause, mend, static_cast<double>(columns.size()) * std::log(factor)};
 }
 
+/// Between the least and the largest value; 0 without rows.
 double range_of(const std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return *most - *least;
 }
 
+/// Degrees that were read as radians. Mending shortens the roll 57 times: `left_of_roll` is what is left, the largest
+/// range of any of the columns.
 SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns, const std::vector<FingerRows>& fingers) {
   SlipOfThePen slip = in_other_angles(cause, 1, columns);
+  // Readings: nothing says how far the columns go.
   if (fingers.empty()) return slip;
+  // Of both fingers and all columns the largest.
   slip.left_of_roll = 0;
   for (const FingerRows& rows : fingers) {
     for (const Column column : columns) {
@@ -109,8 +131,10 @@ SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns, const s
   }
   return slip;
 }
+/// Radians that were read as degrees.
 SlipOfThePen in_radians(Cause cause, const std::vector<Column>& columns) { return in_other_angles(cause, -1, columns); }
 
+/// Other signs; the density of the numbers stays.
 SlipOfThePen the_other_way(Cause cause, const std::vector<Column>& columns) {
   const auto mend = [columns](FingerRows& rows) {
     for (const Column column : columns) {
@@ -120,11 +144,13 @@ SlipOfThePen the_other_way(Cause cause, const std::vector<Column>& columns) {
   return {cause, mend};
 }
 
+/// With the roundings of both columns.
 void swap_u_and_psi(FingerRows& rows) {
   std::swap(rows.u, rows.psi);
   std::swap(rows.place_rounding, rows.angle_rounding);
 }
 
+/// The mistakes in a log of u and psi, the more common ones first. Radians are only tried where degrees were stated.
 std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& fingers) {
   constexpr Column u = &FingerRows::u;
   constexpr Column psi = &FingerRows::psi;
@@ -135,6 +161,7 @@ std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& finge
                                      in_degrees(Cause::u_degrees, {u}, fingers),
                                      in_degrees(Cause::psi_degrees, {psi}, fingers),
                                      in_degrees(Cause::angles_degrees, {u, psi}, fingers)};
+  // Radians that were read as degrees need somebody who stated degrees.
   const bool u_may_be = says_degrees(fingers, "u");
   const bool psi_may_be = says_degrees(fingers, "psi");
   if (u_may_be) slips.push_back(in_radians(Cause::u_radians, {u}));
@@ -143,6 +170,7 @@ std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& finge
   return slips;
 }
 
+/// The mistakes in lengths and turns, of a log or of readings.
 std::vector<SlipOfThePen> slips_of_courses(const std::vector<FingerRows>& fingers) {
   constexpr Column length = &FingerRows::length;
   constexpr Column turn = &FingerRows::turn;
@@ -155,6 +183,7 @@ std::vector<SlipOfThePen> slips_of_courses(const std::vector<FingerRows>& finger
   return slips;
 }
 
+/// A reading as one row: so the same function mends logs and readings.
 void mend(const SlipOfThePen& slip, Reading& reading) {
   FingerRows rows;
   rows.length = {reading.length.begin(), reading.length.end()};
@@ -172,6 +201,7 @@ std::vector<SlipOfThePen> slips_of_the_pen(const Measurement& measured) {
                                                 : slips_of_courses(measured.log->fingers);
 }
 
+/// A copy with all rows, or all readings, mended.
 Problem without(const SlipOfThePen& slip, const Problem& problem) {
   Problem mended = problem;
   if (mended.measured.is_log()) {

@@ -32,7 +32,7 @@ struct View {
 /// way round it went.
 std::vector<View> views_of(const Problem& problem);
 
-/// What the fingers felt, as readings in the direction in which the part is stored.
+/// What the fingers measured, as readings in the direction in which the part is stored.
 struct Observation {
   std::vector<Reading> readings;                            // to search with
   std::vector<double> times;                                // of a log with times: of each, seconds
@@ -48,7 +48,7 @@ struct Observation {
   double length_error() const;
 };
 
-/// All that was felt: a log's rows, or the readings.
+/// All measurements: a log's rows, or the readings.
 inline const std::vector<Reading>& rows_felt(const Problem& problem, const Observation& observed) {
   return problem.measured.is_log() ? observed.rolls : observed.readings;
 }

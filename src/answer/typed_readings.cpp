@@ -26,6 +26,8 @@ double half_unit(std::string_view field) {
   return rollfix::rounding_of(field);
 }
 
+/// Half a unit of the finest decimal of all fields, as a length (of two fingers the sum of both) and as an angle. 0 for
+/// whole numbers, which are exact.
 Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
                          const std::string& unit) {
   double finest = 0;
@@ -39,11 +41,13 @@ Rounding common_rounding(const std::vector<std::string_view>& fields, const std:
   return {length, finest * (take_degrees(turn) ? kDegree : 1)};
 }
 
+/// For the message: decimal commas give more numbers than were meant.
 std::string found_instead(std::size_t count) {
   if (count == 1) return "1 number";
   return fmt::format("{} numbers; are there decimal commas among them?", count);
 }
 
+/// Throws InputError: not three fields where the readings are of two fingers, else not two.
 void require_fields(std::size_t count, bool of_two, const std::string& what) {
   if (of_two && count != 3) {
     throw InputError(
@@ -60,6 +64,7 @@ void require_fields(std::size_t count, bool of_two, const std::string& what) {
 
 Measurement typed(const std::vector<std::string>& readings, const std::string& unit) {
   Measurement measured(std::vector<Reading>{});
+  // One text of three fields makes all of them readings of two fingers.
   const bool of_two = std::any_of(readings.begin(), readings.end(),
                                   [](const std::string& text) { return split(text, ',').size() == 3; });
   for (const std::string& text : readings) {

@@ -33,17 +33,20 @@ constexpr double kUsualAngle = 5e-3;
 // And none with less than this.
 constexpr double kLeastContact = 1e-6;
 
+/// The largest extent of a placement, over fingers, arc length.
 double widest(const Placement& placement) {
   double most = 0;
   for (const Interval& extent : placement.extent) most = std::max(most, extent.width());
   return most;
 }
 
-/// How far a placement may be off its true place.
+/// How far the true place may be from the listed one. 0 of a continuum and of a corner: the listed place of a continuum
+/// stands for others, and a corner is exact.
 double width_of(const Placement& placement) {
   return placement.kind == Kind::stretch || placement.kind == Kind::corner ? 0 : widest(placement);
 }
 
+/// Holds all rows of a log against placements. A row is off by |f|, corners taken as sets.
 class RowsCheck {
  public:
   RowsCheck(const Problem& problem, const Observation& observed, const Answer& answer)
@@ -54,13 +57,17 @@ class RowsCheck {
     is_open_ = ContactEquations{part_, answer.readings}.is_open();
   }
 
+  /// Whether some row, or the contacts in the world, are off beyond what digits and the placement's width explain.
   bool contradicts(const Placement& placement) const {
+    // No reading is exact: placements are as wide as the fingers' corners leave them.
     if (is_open_) return false;
     if (placement.kind != Kind::corner && is_off(placement)) return true;
     const double tolerance = kOverTolerance * answer_.tolerance.value;
     const double width = width_of(placement);
     const double bend = bend_over(width);
     if (!placement.pose_residual || is_of_many(placement)) return false;
+    // What residuals of the pose may be: digits of lengths and centres, the width, and what a turn that is off does
+    // across the part.
     const double length =
         kOverTolerance * (observed_.length_error() + centre_rounding_) + width + (tolerance + bend) * part_.perimeter();
     return placement.pose_residual->length > length + kLeastOff * part_.perimeter();
@@ -78,8 +85,9 @@ class RowsCheck {
  private:
   static constexpr double kLeastOff = 1e-6;  // of the perimeter: an outline's own accuracy
   static constexpr double kNearlyAsBad = 0.5;
-  static constexpr double kContinuum = 1e-3;  // of the perimeter: far more than digits leave open of one place
+  static constexpr double kContinuum = 1e-3;  // of the perimeter: more than digits leave open of one place
 
+  /// By how much a turn may differ over a width of starts, radians: both ends of the roll move.
   double bend_over(double width) const { return 2 * part_.turning().most_curvature() * width; }
   /// A continuum, of pairs also but for digits: the place that is listed need not be where the fingers were.
   bool is_of_many(const Placement& placement) const {
@@ -88,15 +96,18 @@ class RowsCheck {
   }
 
   /// Where contacts are known no better.
+  /// Within this arc length of a corner a contact may be at it.
   double near(const Placement& placement) const {
     return kOverTolerance * observed_.length_error() + (is_of_many(placement) ? 0 : width_of(placement));
   }
 
+  /// Whether the worst row is off by more than the tolerance and the placement's width explain.
   bool is_off(const Placement& placement) const {
     const double most = kOverTolerance * answer_.tolerance.value + bend_over(width_of(placement));
     return off(placement, observed_.rolls) > most;
   }
 
+  /// The largest |f| over these rows at the start, or at a listed root if that fits better; radians.
   double off(const Placement& placement, std::span<const Reading> rows) const {
     ContactEquations question{part_, rows, {}, near(placement)};
     if (answer_.facing) question.facing = without_laps(*answer_.facing);
@@ -111,6 +122,7 @@ class RowsCheck {
     std::vector<Reading> asked = answer_.readings;
     std::vector<double> each;
     for (const Reading& row : observed_.rolls) {
+      // Each row together with those searched with: pivots at the first contact are the same for all.
       asked.push_back(row);
       each.push_back(off(placement, asked));
       asked.pop_back();
@@ -147,10 +159,12 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
   noisy.noise = noise;
   noisy.noise->contact = std::max(noise.contact, kLeastContact * problem.part.perimeter());
   std::optional<Belief> belief = believe(noisy, observed);
+  // Even with that noise the rows are off: the usual mistakes are tried.
   if (belief->fit().is_bad()) {
     std::vector<Diagnosis> found = diagnose(noisy, observed, *belief);
     for (Diagnosis& one : found) {
       if (!rows_are_exact || !is_mended_exactly(one.cause)) one.noise = *noisy.noise;  // the cure says it all
+      // The noise was never stated: it is not "more than stated", but unstated, and so large.
       if (one.cause != Cause::noise) continue;
       one.cause = Cause::unsaid_noise;
       one.noise.contact *= one.noise_scale;
@@ -158,6 +172,7 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
     }
     return found;
   }
+  // The rows fit with that noise: that none was stated is all that is wrong.
   Diagnosis diagnosis;
   diagnosis.cause = Cause::unsaid_noise;
   diagnosis.noise = noise;
@@ -166,6 +181,8 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
   return {std::move(diagnosis)};
 }
 
+/// With the noise that the rows show by their jitter. Else with very little, so that the least mistake is seen, and if
+/// that finds none with usual noise.
 std::vector<Diagnosis> diagnoses_of(const Problem& problem, const Observation& observed) {
   const double P = problem.part.perimeter();
   if (const auto shown = noise_that_shows(*problem.measured.log, problem.fingers)) {
@@ -182,6 +199,7 @@ std::vector<std::size_t> rows_to_ask(const Problem& problem, const Observation& 
   return RowsCheck(problem, observed, answer).rows_to_ask();
 }
 
+/// Marks contradicted placements and puts them last; looks for what is wrong if none is left.
 RowsChecked check_rows(const Problem& problem, const Observation& observed, bool explains, const Answer& answer) {
   const RowsCheck check(problem, observed, answer);
   RowsChecked rows{answer.placements};

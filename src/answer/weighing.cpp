@@ -13,8 +13,8 @@
 //   trust           1 / (1 + e^odds): how far the rows are believed where something else explains them as well
 //   evidence        log of the integral of the likelihood over all places, peak and volume: `Evidence`
 // Follows docs/belief.md, "What the verdict says", "What may be wrong", and of centres "Centres as evidence".
-// Idea: what the samples leave takes the place of what the search found. Centres that nobody called evidence still must
-// not contradict the answer: they are weighed as if they were known badly.
+// Idea: what the samples leave takes the place of what the search found. Centres that are not stated as evidence still
+// must not contradict the answer: they are weighed as if they were known badly.
 namespace rollfix::answer {
 namespace {
 
@@ -28,7 +28,7 @@ constexpr std::size_t kRowsOfGlance = 96;
 // What was said of a log is not held to be less likely than exp(-this).
 constexpr double kMostDoubt = 30;
 
-/// What a finger felt at its first contact, where the log tells it.
+/// What a finger measured at its first contact, where the log has it.
 std::optional<MeasuredContact> first_felt(const Problem& problem, std::size_t which) {
   if (problem.fingers.empty() || !problem.measured.is_log()) return std::nullopt;
   const FingerRows& rows = problem.measured.log->fingers[which];
@@ -39,6 +39,8 @@ std::optional<MeasuredContact> first_felt(const Problem& problem, std::size_t wh
   return MeasuredContact{where, facing(finger, first), finger.curvature(first.u)};
 }
 
+/// The part's pose with its covariance for each placement, from the centres at the first contact. Nothing where some
+/// finger's log has none.
 void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placement>& placements) {
   if (placements.empty()) return;
   PerFinger<MeasuredContact> felt = PerFinger<MeasuredContact>::of(placements.front().start.size());
@@ -50,8 +52,9 @@ void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placem
   for (std::size_t k = 0; k < placements.size(); ++k) placements[k].pose_spread = belief.pose_spread(k, felt);
 }
 
-/// Where something else explains the rows as well, what was said of them is in doubt. Rows that are off alike tell
-/// less.
+/// How far the stated problem is believed, 1 / (1 + e^odds); 1 where nothing else explains the rows. More noise and
+/// correlation do not move the places, and so cast no doubt. Correlated rows are worth fewer independent ones: the odds
+/// are divided by (widened / excess)^2.
 double trust(const Answer& answer) {
   if (answer.diagnoses.empty()) return 1;
   const Fit& fit = answer.weighing->fit;
@@ -61,7 +64,8 @@ double trust(const Answer& answer) {
   return 1 / (1 + std::exp(std::clamp(likeliest.log_odds / alike, 0.0, kMostDoubt)));
 }
 
-/// How probable it is, if that diagnosis holds, that the place is this one, as far as intervals tell.
+/// The probability of a placement if that diagnosis holds: of its modes whose intervals meet the placement's, for each
+/// finger.
 double probability_if(const Diagnosis& diagnosis, const Placement& placement, const Boundary& places) {
   double sum = 0;
   for (const Mode& mode : diagnosis.modes) {
@@ -80,10 +84,12 @@ double probability_if(const Diagnosis& diagnosis, const Placement& placement, co
 std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observation& observed) {
   const bool has_centres = problem.measured.is_log() && observed.contacts && !problem.fingers.empty() &&
                            problem.measured.log->fingers.size() == 1 && !problem.measured.log->fingers[0].x.empty();
+  // With position noise stated the centres were weighed already.
   if (!has_centres || problem.noise->position > 0 || problem.robust) return {};
   Problem looked_at = problem;
   looked_at.noise->position = kBadCentre * std::max({problem.noise->contact, kLeastCentre * problem.part.perimeter(),
                                                      jitter_of_centres(*problem.measured.log)});
+  // A few rows first: centres that fit are the rule.
   if (!believe(looked_at, observed, {0, kRowsOfGlance})->fit().is_bad()) return {};
   std::optional<Belief> belief = believe(looked_at, observed);
   std::vector<Diagnosis> found = diagnose(looked_at, observed, *belief);
@@ -94,6 +100,7 @@ std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observ
 
 }  // namespace
 
+/// Copies of the belief's modes, the most probable first.
 std::vector<Mode> modes_of(Belief& belief) {
   std::vector<Mode> modes = belief.modes();
   for (Mode& mode : modes) mode.probability = std::min(1.0, mode.probability);
@@ -111,6 +118,8 @@ void keep_probabilities(std::vector<Placement>& placements, Weighing& weighing) 
 
 }  // namespace
 
+/// Copies what the belief says into the answer's fields. `searched`: placements of the search, which give each mode its
+/// kind.
 RowsWeighed weigh(const Problem& problem, const Observation& observed, bool explains, const Answer& searched,
                   Belief& belief) {
   const Doing doing("weighing all rows");
@@ -134,6 +143,7 @@ RowsWeighed weigh(const Problem& problem, const Observation& observed, bool expl
   Weighed weighed = rollfix::weigh(searched.part, searched.readings, searched.facing, searched.placements, belief);
   weighing.improbable = std::move(weighed.improbable);
   add_pose_spreads(problem, belief, weighed.placements);
+  // Nothing explains the rows: no place is listed, all are kept as improbable.
   if (verdict == Verdict::inconsistent) {
     for (Placement& placement : weighed.placements) weighing.improbable.push_back(std::move(placement));
     weighed.placements.clear();
@@ -149,6 +159,7 @@ RowsWeighed weigh(const Problem& problem, const Observation& observed, bool expl
   return rows;
 }
 
+/// Probabilities are divided by what is left, and the evidence loses the share that was dropped.
 void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly) {
   if (!answer.impossible.empty() || is_reweighed) {
     double total = 0;
@@ -162,9 +173,11 @@ void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly
   }
   answer.verdict.fits_badly |= fits_badly;
   const double as_said = trust(answer);
+  // Nothing else explains the rows.
   if (as_said == 1) return keep_probabilities(answer.placements, *answer.weighing);
   double listed = 0;
   for (Placement& placement : answer.placements) {
+    // Mixed over two hypotheses: as stated, and with the likeliest mistake.
     placement.probability *= as_said;
     placement.probability +=
         (1 - as_said) * probability_if(answer.diagnoses.front(), placement, answer.part.boundary());

@@ -31,11 +31,11 @@ constexpr std::size_t kMostStartCells = 4000;
 
 /// What the search says of a stretch of starts: a placement (or several, or none, where nothing is decided).
 struct Found {
-  Interval extent;  // unwrapped
+  Interval extent;  // of starts s, unwrapped: its upper end may exceed P
   std::vector<const Placement*> placements;
-  bool decided = true;
-  bool is_whole = false;
-  double from = 0;  // its rows
+  bool decided = true;    // false: `unresolved` by the search, or joined with a neighbour
+  bool is_whole = false;  // all of the outline
+  double from = 0;        // its rows
   double to = 0;
 };
 
@@ -46,6 +46,7 @@ struct Mark {
   std::vector<std::size_t> by;  // the readings of which
 };
 
+/// Draws up the rows of one certificate: what was found, rows beside it, cells in between. Used once.
 class Maker {
  public:
   Maker(const Part& part, const std::vector<Reading>& readings, const Search& search, double tolerance)
@@ -56,6 +57,7 @@ class Maker {
         f_(part, readings, tolerance),
         range_(clear_starts(part, f_.lengths())) {}
 
+  /// All rows by rising s. On a closed outline the last cell ends at the first row.
   std::vector<CertificateRow> rows() {
     list_found();
     if (found_.size() == 1 && found_.front().is_whole) {
@@ -70,6 +72,7 @@ class Maker {
  private:
   // ---- what was found ----
 
+  /// Fills `found_` from the search: placements and what it left undecided, by rising s.
   void list_found() {
     for (const Placement& placement : search_.placements) {
       found_.push_back({placement.extent[0], {&placement}, true, placement.whole_loop[0], 0, 0});
@@ -94,23 +97,27 @@ class Maker {
 
   // ---- edges ----
 
-  /// How far it is from here to the neighbours, for rows on both sides.
+  /// The arc length between this entry and the next one, where rows for both must stand. Unlimited after the last one
+  /// of an open outline.
   double room_after(std::size_t k) const {
     if (k + 1 < found_.size()) return found_[k + 1].extent.lo - found_[k].extent.hi;
     if (!part_.closed()) return std::numeric_limits<double>::infinity();
     return found_.front().extent.lo + part_.perimeter() - found_.back().extent.hi;
   }
 
-  /// A row outside of an edge, on this side of the next corner if f is away from the tolerance there: nothing where it
-  /// does not get away in the room that there is.
+  /// Steps away from one end of an extent (`way` 1 or -1) until |f| is well outside the tolerance, and sets `row`.
+  /// Stops before a corner if |f| is outside there, because beyond a jump f is another value. False: |f| stays too near
+  /// to the tolerance in the room that there is.
   bool find_edge(double edge, int way, double room, double& row) const {
     const double most = room / 3;
+    // A third of the room for this row, a third for the neighbour's, a third between them.
     if (!(most > 4 * step_)) return false;
     row = edge;
     double away = step_;
     for (bool is_last = false; !is_last; away *= kGrowth) {
       is_last = away >= most;
       double next = edge + way * std::min(away, most);
+      // The end of an open outline needs no |f|: no start lies beyond it.
       if (!part_.closed() && (next <= range_.lo || next >= range_.hi)) {
         row = way < 0 ? range_.lo : range_.hi;
         return true;
@@ -123,19 +130,24 @@ class Maker {
     return f_.size(row) > f_.edge();
   }
 
+  /// Gives each entry of `found_` its rows; entries without room are joined. Ends, for each join makes the list
+  /// shorter.
   void find_edges() {
     for (std::size_t k = 0; k < found_.size();) {
       Found& one = found_[k];
+      // Of a closed outline the first entry has the last one as its neighbour.
       const double before = k > 0 ? room_after(k - 1) : room_after(found_.size() - 1);
       if (find_edge(one.extent.lo, -1, before, one.from) && find_edge(one.extent.hi, 1, room_after(k), one.to)) {
         ++k;
         continue;
       }
+      // One entry without room on either side: no row is outside of the tolerance, and the whole outline is left open.
       if (found_.size() == 1) {
         join_all();
         found_[0].decided = false;
         return;
       }
+      // A joined entry has another extent, which changes the room of its neighbours: all edges are looked for again.
       join_with_next(k);
       k = 0;
     }
@@ -143,6 +155,7 @@ class Maker {
 
   /// Where two are too near each other to have rows in between, nothing is claimed of both.
   void join_with_next(std::size_t k) {
+    // The last entry is joined with the one before it, all others with the next.
     const bool wraps = k + 1 == found_.size();
     Found& one = found_[wraps ? k - 1 : k];
     const Found& next = found_[wraps ? k : k + 1];
@@ -154,6 +167,8 @@ class Maker {
 
   // ---- rows and cells ----
 
+  /// A row at s, and the claim from there on. Marks come by rising s; at the place of the last mark the claim is
+  /// replaced.
   void mark(double s, CellKind then, std::vector<std::size_t> by = {}) {
     if (marks_.empty() || s > marks_.back().s) {
       marks_.push_back({s, then, std::move(by)});
@@ -163,6 +178,7 @@ class Maker {
     }
   }
 
+  /// Where one entry is all of the outline: one row, and from it one cell around, in which flat parts are `stretch`.
   void mark_whole() {
     const double from = f_.clear(step_, 1);
     const double to = from + part_.perimeter();
@@ -177,9 +193,11 @@ class Maker {
 
   static bool is_stretch(const Found& one) { return one.placements[0]->kind == Kind::stretch; }
 
+  /// Alternates between what is apart and what was found, from the first row once round, or from end to end.
   void mark_all() {
     const double period = part_.perimeter();
     double here = range_.lo;
+    // If nothing was found the row stands where |f| is least: there `apart` is hardest to claim.
     if (part_.closed()) here = found_.empty() ? f_.clear(f_[0].nearest(0, period), 1) : found_.front().from;
     const double end = part_.closed() ? here + period : range_.hi;
     for (const Found& one : found_) {
@@ -193,6 +211,7 @@ class Maker {
         mark_inside(one, kind == Kind::corner && is_wide ? Kind::touching : kind);
         if (is_stretch(one)) mark_flat(one.from, one.to);
       }
+      // What lies behind the entry's last row is apart again, or belongs to the next entry.
       here = one.to;
     }
     mark_apart(here, end);
@@ -207,6 +226,7 @@ class Maker {
       if (found->row) mark(*found->row, CellKind::apart, found->by);
       return;
     }
+    // Depth and number of cells are limited: readings that nearly fit on a long stretch would be halved without end.
     const double middle = f_.split(lo, hi);
     if (depth == kMostStartHalvings || marks_.size() > kMostStartCells ||
         !(middle > lo + step_ && middle < hi - step_)) {
@@ -217,11 +237,13 @@ class Maker {
     mark_apart(middle, hi, depth + 1);
   }
 
+  /// f is outside the tolerance at both ends, on different sides.
   bool changes_sign(const Residual& f, double lo, double hi) const {
     return std::min(f.size(lo), f.size(hi)) > tolerance_ && (f.at(lo) < 0) != (f.at(hi) < 0);
   }
 
-  /// f is outside the tolerance on both sides of a corner, and on different ones.
+  /// f has opposite signs two steps before and after a corner, and is outside the tolerance there by twice its blur.
+  /// Then `corner` can be claimed.
   bool passes_corner(const Residual& f, double s) const {
     const double lo = s - 2 * step_;
     const double hi = s + 2 * step_;
@@ -229,7 +251,8 @@ class Maker {
            std::min(f.size(lo), f.size(hi)) > tolerance_ + 2 * std::max(f.blur(lo), f.blur(hi));
   }
 
-  /// By the first reading that tells.
+  /// The claim for the starts around one placement: `corner` or `crossing` by the first reading that shows it, else
+  /// `within`.
   void mark_inside(const Found& one, Kind kind) {
     const double lo = one.from;
     const double hi = one.to;
@@ -241,7 +264,8 @@ class Maker {
     mark(lo, stays_within(one) ? CellKind::within : CellKind::unproved);
   }
 
-  /// Where a curve is at rest f gets away from a corner at once, and comes back.
+  /// Whether no |f| beside a joint exceeds both the tolerance and its values at the two rows. It may, where a curve is
+  /// at rest: there f leaves the tolerance at once and comes back.
   bool stays_within(const Found& one) const {
     for (std::size_t k = 0; k < f_.count(); ++k) {
       const double most = std::max({tolerance_, f_[k].size(one.from), f_[k].size(one.to)});
@@ -250,8 +274,9 @@ class Maker {
     return true;
   }
 
-  /// Of what was marked from lo on, where every f is 0 to rounding.
+  /// Marks the parts of a stretch on which every f is 0 to rounding as `stretch`, and as `within` from their end on.
   void mark_flat(double lo, double hi) {
+    // Flat parts come by rising s, so that marks do as well.
     for (const Interval& flat : f_.flat(lo, hi)) {
       const double from = f_.clear(flat.lo, 1);
       const double to = f_.clear(flat.hi, -1);
@@ -260,6 +285,7 @@ class Maker {
         marks_.back().then = CellKind::stretch;
         return;
       }
+      // Less than the two steps that rows keep from joints.
       if (!(to > from)) continue;
       mark(from, CellKind::stretch);
       mark(to, CellKind::within);
@@ -268,6 +294,7 @@ class Maker {
 
   // ---- from marks to rows ----
 
+  /// Places by the outline's formulas. `off` below `kTurnAccuracy` is rounding and is written as 0.
   CertificateRow row_at(const Mark& mark) const {
     CertificateRow row{place_of(part_, mark.s), {}, {}, mark.then, mark.by};
     for (std::size_t k = 0; k < f_.count(); ++k) {
@@ -277,7 +304,7 @@ class Maker {
     return row;
   }
 
-  /// By rising s from 0 on.
+  /// Marks to rows. On a closed outline s is reduced to [0, P), and the row with the least s comes first.
   std::vector<CertificateRow> rows_of_marks() {
     if (part_.closed()) {
       for (Mark& mark : marks_) mark.s = part_.boundary().base(mark.s);
@@ -324,11 +351,14 @@ const char* name_of(CellKind kind) {
   return "unproved";
 }
 
+/// Whether every cell claims something. The verifier may still leave cells open.
 bool Certificate::is_complete() const {
   return std::none_of(rows.begin(), rows.end(),
                       [](const CertificateRow& row) { return row.then == CellKind::unproved; });
 }
 
+/// Searches by itself and draws up the certificate. Throws InputError: readings of two fingers, or with a turn that is
+/// only bounded; a curve without a formula.
 Certificate certify(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
   for (const Reading& reading : readings) {
     if (reading.fingers() != 1) throw InputError("expected readings of one finger, found one of two fingers");
@@ -342,6 +372,7 @@ Certificate certify(const Part& part, const std::vector<Reading>& readings, cons
   Certificate certificate;
   static_cast<CertifiedOutline&>(certificate) = certifying::certified_outline(part);
   certificate.readings = readings;
+  // Below `kLeastTolerance` rounding of the search decides what is outside.
   certificate.tolerance = std::max(options.tolerance, kLeastTolerance);
   certificate.rows = certifying::Maker(part, readings, search, certificate.tolerance).rows();
   for (const Placement& placement : search.placements) {

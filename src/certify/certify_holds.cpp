@@ -41,15 +41,19 @@ double in_period(double value, double period) {
   return period > 0 ? value - period * std::round(value / period) : value;
 }
 
+/// Describes one set of first contacts that fit: where each contact is on the part, the pose at each instant, and how
+/// far each measurement is from it, as a share of its tolerance. Used once.
 class Lies {
  public:
   Lies(const Part& part, const hold::HoldFit& fit, const hold::WheelPaths& paths, const HeldState& state)
       : part_(part), fit_(fit), rows_(fit.rows()), paths_(paths), state_(state) {}
 
+  /// Nothing if some share exceeds 1: the fit is good to rounding, and the verifier would refuse it.
   std::optional<CertifiedHoldSet> described() {
     CertifiedHoldSet set;
     const Boundary boundary = part_.boundary();
     for (std::size_t k = 0; k < fit_.fingers(); ++k) {
+      // The fit's unknowns are the first contacts, in the order of the fingers.
       set.first.push_back(boundary.canonical(state_.unknowns(static_cast<Eigen::Index>(k))));
       set.at.push_back(place_of(part_, set.first.back()));
     }
@@ -57,22 +61,27 @@ class Lies {
     set.zeros.assign(paths_.size(), 0);
     spun_.assign(paths_.size(), {});
     for (std::size_t row = 0; row < rows_.rows.size(); ++row) set.lies.push_back(lie_at(row));
+    // An encoder's zero needs all instants: it is added last.
     for (std::size_t wheel = 0; wheel < paths_.size(); ++wheel) add_zero(wheel, set);
     if (!fits_) return std::nullopt;
     return set;
   }
 
  private:
+  /// `share` of a tolerance; beyond 1 the set does not fit.
   void require(double share) { fits_ = fits_ && std::abs(share) <= kFits; }
 
+  /// The pose of one instant, the residuals of each finger's contact, and where each wheel touches.
   CertifiedLie lie_at(std::size_t row) {
     CertifiedLie lie;
     lie.pose = fit_.pose_at(state_, row).pose;
     for (std::size_t k = 0; k < fit_.fingers(); ++k) {
       const HeldContact& contact = rows_.rows[row].contacts[k];
       const HeldErrors& errors = rows_.errors[k];
+      // |q - X - R(phi) p(s)| as a share of `place`; 0 where no place was measured.
       const double place = errors.has_place ? fit_.residual(state_, row, k).place.norm() / errors.place : 0;
       const hold::BlurredPlace about = hold::ranged(part_, fit_.place_of(state_, row, k), errors.travel);
+      // tau - phi may be anything that Theta is within `travel` of the contact, and `angle` more.
       const double turn =
           nearest_angle(contact.tangent - lie.pose.heading - about.angle) / (about.half_turn + errors.angle);
       lie.off.push_back({place, turn});
@@ -83,22 +92,32 @@ class Lies {
     return lie;
   }
 
+  /// Where a wheel touches at an instant: the place of its path that is nearest to the pin, with the shares of pin, of
+  /// the line (if squeezed), and of its encoder's zero, which `add_zero` fills in.
   CertifiedLie::Wheel wheel_at(std::size_t row, std::size_t number, const Pose& pose) {
     const HeldWheel& wheel = rows_.wheels[number];
     const hold::HeldPin& pin = rows_.rows[row].pins[number];
+    // The pin in the part's frame.
     const Vec2 seen = Pose{0, 0, -pose.heading}.turned(pin.at - Vec2(pose.x, pose.y));
+    // The wheel touches where its path comes nearest to the pin.
     const hold::NearPin near = paths_[number]->nearest(seen);
     const Boundary boundary = part_.boundary();
+    // On the first lap; of an open outline rounding must not leave it.
     const double s = boundary.closed ? boundary.canonical(near.s) : std::clamp(near.s, 0.0, boundary.perimeter);
     const double psi = tangent_at(s, near.angle);
     CertifiedLie::Wheel touching{place_of(part_, s), nearest_angle(psi), {}};
+    // p(t) + r n(psi): where the pin is if the wheel touches at t with the tangent psi.
     const Vec2 path = part_.point(s) + wheel.wheel_radius * Vec2(std::sin(psi), -std::cos(psi));
+    // Of the pin.
     touching.off[0] = (seen - path).norm() / wheel.place;
+    // The jaw and the wheel squeeze the part: the direction from its first contact to the pin is phi + psi - pi / 2.
     if (wheel.line) {
       const Vec2 way = pin.at - rows_.rows[row].contacts[0].at;
+      // Of the line, in its tolerance.
       touching.off[1] =
           nearest_angle(std::atan2(way.y(), way.x()) - pose.heading - psi + 0.5 * std::numbers::pi) / *wheel.line;
     }
+    // beta - phi - psi - t / r, with phi counted on over whole turns, for an encoder counts them.
     if (wheel.spin) spun_[number].push_back(pin.spin - counted_heading(row, pose) - psi - s / wheel.wheel_radius);
     require(touching.off[0]);
     require(touching.off[1]);
@@ -108,6 +127,7 @@ class Lies {
   /// The boundary's own tangent, or where the wheel may pivot the one that it has.
   double tangent_at(double s, double pivoted) const {
     const double own = part_.turning().angle(s);
+    // The search's place of a corner is known to rounding.
     const bool is_corner = std::any_of(part_.corners().begin(), part_.corners().end(), [&](const Corner& corner) {
       return part_.distance(corner.s, s) <= kAtCorner * part_.perimeter();
     });
@@ -119,15 +139,18 @@ class Lies {
     const double s = first_ + rows_.rows[row].contacts[0].travelled;
     const Boundary boundary = part_.boundary();
     const double angle = part_.turning().angle(boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter));
+    // Roughly the heading, unwrapped: the measured tangent less Theta at the contact. It tells the whole turns of
+    // the pose's heading.
     const double about = rows_.rows[row].contacts[0].tangent - angle;
     return about + nearest_angle(pose.heading - about);
   }
 
-  /// In the middle of what all instants say.
+  /// The zero in the middle of the values that all instants give, and each instant's share of `spin`.
   void add_zero(std::size_t number, CertifiedHoldSet& set) {
     const std::vector<double>& spun = spun_[number];
     if (spun.empty()) return;
     const double period = paths_[number]->spin_period();
+    // Values are compared within a period of the first one: the encoder does not tell laps around the part apart.
     double least = 0, most = 0;
     for (const double one : spun) {
       least = std::min(least, in_period(one - spun.front(), period));
@@ -165,7 +188,9 @@ constexpr double kWiderSet = 0.1;
 /// Of the chord from a contact to a pin, each off by so much: by how much its direction may be off.
 double swing(double off, double length) { return off >= length ? std::numbers::pi : std::asin(off / length); }
 
+/// Tolerances of one finger: 4.5 standard deviations, the most of all rows.
 HeldErrors slacks_of(const HeldRows& rows, std::size_t finger) {
+  // Each kind of error has its largest row on its own.
   HeldErrors widest;
   widest.has_place = rows.errors[finger].has_place;
   for (const HeldRow& row : rows.rows) {
@@ -177,21 +202,26 @@ HeldErrors slacks_of(const HeldRows& rows, std::size_t finger) {
   return widest;
 }
 
+/// Tolerances of one wheel likewise. An error of its radius moves the pin, and the encoder by radius / r times the
+/// turn.
 HeldWheel slacks_of(const HeldRows& rows, std::size_t number, double finger_place) {
   HeldWheel wheel = rows.wheels[number];
   wheel.place = kTouchSigmas * (wheel.place + wheel.radius);
   for (const HeldRow& row : rows.rows) {
+    // What the wheel has turned since the first row, with a turn to spare.
     if (wheel.spin) {
       const double turned = std::abs(row.pins[number].spin - rows.rows.front().pins[number].spin) + kFullTurn;
       const HeldWheel& given = rows.wheels[number];
       wheel.spin = std::max(*wheel.spin, kTouchSigmas * (*given.spin + given.radius / given.wheel_radius * turned));
     }
+    // The line's ends are a finger's contact and a pin, each off by its own tolerance.
     if (wheel.line) {
       const double length = (row.pins[number].at - row.contacts[0].at).norm();
       wheel.line = std::max(*wheel.line, std::min(std::numbers::pi, kTouchSigmas * *rows.wheels[number].line +
                                                                         swing(finger_place + wheel.place, length)));
     }
   }
+  // It is contained in the other tolerances now.
   wheel.radius = 0;
   return wheel;
 }
@@ -199,6 +229,7 @@ HeldWheel slacks_of(const HeldRows& rows, std::size_t number, double finger_plac
 /// The same rows with tolerances in place of standard deviations: the most of all rows.
 HeldRows within_slack(HeldRows rows) {
   if (!rows.has_noise) return rows;
+  // The given errors, before they are replaced.
   const HeldRows noisy = rows;
   rows.has_noise = false;
   for (std::size_t k = 0; k < rows.fingers(); ++k) rows.errors[k] = slacks_of(noisy, k);
@@ -212,6 +243,7 @@ std::optional<Reach> confined(const Reach* reach) {
   return *reach;
 }
 
+/// What the certificate says of a finger with skin: its kind, tolerances, and what it has rolled over.
 CertifiedFinger certified_finger(const Finger& finger, const HeldRows& rows, std::size_t number, const Reach* reach) {
   const HeldErrors& errors = rows.errors[number];
   CertifiedFinger result;
@@ -220,6 +252,7 @@ CertifiedFinger certified_finger(const Finger& finger, const HeldRows& rows, std
   result.travel = errors.travel;
   result.angle = errors.angle;
   if (errors.has_place) result.place = errors.place;
+  // Between the extreme contacts, less the tolerance of travel at both ends, the finger passed for certain.
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const HeldRow& row : rows.rows) {
     least = std::min(least, row.contacts[number].travelled);
@@ -230,6 +263,7 @@ CertifiedFinger certified_finger(const Finger& finger, const HeldRows& rows, std
   return result;
 }
 
+/// A wheel is a disk: its reach is computed here, and is stated where it leaves something out.
 CertifiedWheel certified_wheel(const Part& part, const HeldWheel& wheel) {
   const Reach reach = reach_of_disk(part, wheel.wheel_radius);
   CertifiedWheel result{wheel.wheel_radius, wheel.place, wheel.spin, wheel.line, std::nullopt};
@@ -237,6 +271,7 @@ CertifiedWheel certified_wheel(const Part& part, const HeldWheel& wheel) {
   return result;
 }
 
+/// The measurements of one row; places and encoders only where they are evidence.
 CertifiedInstant certified_instant(const HeldRow& row, const HeldRows& rows) {
   CertifiedInstant instant{row.time, {}, {}};
   for (std::size_t k = 0; k < row.contacts.size(); ++k) {
@@ -251,7 +286,8 @@ CertifiedInstant certified_instant(const HeldRow& row, const HeldRows& rows) {
   return instant;
 }
 
-/// A little longer.
+/// Arcs of first contacts, each longer by a tenth of its tolerance. That of the angle is turned into length by the
+/// perimeter's average curvature, 2 pi / P.
 std::vector<Interval> widened(const std::vector<Interval>& extent, const HeldRows& rows, const Boundary& boundary) {
   std::vector<Interval> result;
   for (std::size_t k = 0; k < rows.fingers(); ++k) {
@@ -264,17 +300,20 @@ std::vector<Interval> widened(const std::vector<Interval>& extent, const HeldRow
   return result;
 }
 
-/// Which sets have what an answer lists, among others it may be: those that its first contacts are in.
+/// With noise a set is listed if a placement of the answer is in it; all others are improbable. Without noise all sets
+/// stay listed.
 void mark_listed(const HoldAnswer& answer, const Boundary& boundary, std::vector<CertifiedHoldSet>& sets) {
   if (!answer.noise) return;
   for (CertifiedHoldSet& set : sets) set.listed = false;
   for (const HoldPlacement& placement : answer.placements) {
+    // Whether some relation holds between the set and the placement for each finger.
     const auto all_of = [&](const CertifiedHoldSet& set, const auto& suits) {
       for (std::size_t k = 0; k < set.extent.size(); ++k) {
         if (!suits(set.extent[k], placement.contacts[k])) return false;
       }
       return true;
     };
+    // The set that holds the best fit's first contacts.
     auto own = std::find_if(sets.begin(), sets.end(), [&](const CertifiedHoldSet& set) {
       return all_of(set, [&](const Interval& extent, const HoldContact& contact) {
         return boundary.contains(extent, contact.start);
@@ -291,10 +330,11 @@ void mark_listed(const HoldAnswer& answer, const Boundary& boundary, std::vector
   }
 }
 
-/// In the world as it is.
+/// A part that lies face down is solved in a mirror, x to -x. This maps the measurements and results back.
 void take_out_of_mirror(HoldCertificate& certificate) {
   for (CertifiedInstant& instant : certificate.instants) {
     for (CertifiedInstant::Contact& contact : instant.contacts) {
+      // Mirrored directions: angle a becomes pi - a, and turns change their sign.
       contact.tangent = std::numbers::pi - contact.tangent;
       if (contact.at) contact.at->x() = -contact.at->x();
     }
@@ -316,6 +356,8 @@ void take_out_of_mirror(HoldCertificate& certificate) {
   }
 }
 
+/// Searches for all sets of first contacts within the tolerances, and adds them with what fits in each. Sets of which
+/// it is not known whether anything fits have an extent alone.
 void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, const HoldAnswer& answer,
               HoldCertificate& certificate) {
   const Part& part = question.part();
@@ -327,6 +369,7 @@ void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, cons
   hold::HoldFit fit(part, question.searched(), wheels);
   hold::Witnessed found = hold::witnessed(question, fit, question.search().search());
   for (const hold::WitnessedSet& one : found.sets) {
+    // A fit that rounding leaves just beyond the tolerances is not stated.
     CertifiedHoldSet set = lies_of(part, fit, wheels, one.state).value_or(CertifiedHoldSet{});
     set.extent = arcs(one.set.extent);
     certificate.sets.push_back(std::move(set));
@@ -341,6 +384,7 @@ void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, cons
     }
   }
   mark_listed(answer, boundary, certificate.sets);
+  // Boxes that the budget left open, joined to sets.
   if (found.undecided.empty()) return;
   for (const hold::FoundSet& one : question.sets(found.undecided)) {
     certificate.unresolved.push_back(arcs(one.set.extent));
@@ -353,12 +397,15 @@ void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, cons
 
 namespace rollfix {
 
+/// Whether the search came to an end and each listed set has first contacts that fit.
 bool HoldCertificate::is_complete() const {
   return unresolved.empty() && std::none_of(sets.begin(), sets.end(), [](const CertifiedHoldSet& set) {
            return set.listed && set.first.empty();
          });
 }
 
+/// Asks the question of `problem` again within tolerances and writes it down with all that fits. Throws InputError: an
+/// invalid or robust problem, an answer to another problem, a curve without a formula.
 HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answer) {
   hold::require_valid(problem);
   if (problem.robust) {
@@ -370,6 +417,7 @@ HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answ
   const hold::WheelPaths wheels = hold::paths_of(problem);
   std::vector<Log> logs = hold::logs_of(problem);
   const HoldProblem seen = problem.mirrored ? hold::in_mirror(problem, logs) : problem;
+  // In place of noise, tolerances: so the same question has a yes or no for each first contact.
   const hold::HeldRows rows = certifying::within_slack(hold::held_rows(seen, logs));
   hold::HeldQuestion question(seen, rows, hold::rows_to_search(problem, logs.front()), wheels);
   HoldCertificate certificate;
@@ -386,6 +434,7 @@ HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answ
     certificate.instants.push_back(certifying::certified_instant(row, rows));
     times.push_back(row.time);
   }
+  // The answer is only used for what it lists, but it must be of the same rows.
   if (answer.instants != times || answer.noise.has_value() != problem.noise.has_value()) {
     throw InputError("a certificate of fingers on a free part: expected the answer to this problem, found another one");
   }

@@ -47,6 +47,7 @@ constexpr double kRoomBeyond = 1e-4;
 // lines times vertices are some seconds.
 constexpr std::size_t kMostOnLines = 200;
 
+/// Draws up one certificate of two fingers: boxes and lines of the placements first, then the cover. Used once.
 class PairMaker {
  public:
   PairMaker(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options)
@@ -61,15 +62,18 @@ class PairMaker {
     }
   }
 
+  /// Cells, ends and placements of the certificate.
   void fill(PairCertificate& certificate) {
     for (const Placement& placement : search_.placements) {
       pairs_.push_back({&placement, {}, false, line_of(placement)});
       proofs_.push_back(PairProof::fits);
+      // What each placement's box must hold is known for all before the first box is looked for: boxes may not meet it.
       needed_.push_back({spared(placement, 0), spared(placement, 1)});
     }
     leave_costly_lines();
     for (std::size_t k = 0; k < pairs_.size(); ++k) find_box(k);
     const PairBox whole = this->whole();
+    // The verifier builds the same tree from this corner, by halving.
     certificate.from = row(whole[0].lo, whole[1].lo);
     if (!part_.closed()) certificate.to = row(whole[0].hi, whole[1].hi);
     certificate.cells = PairCover(part_, bounds_, tolerance_, pairs_).cells(whole);
@@ -77,6 +81,7 @@ class PairMaker {
   }
 
  private:
+  /// All pairs of first contacts. On a closed outline one lap from a place that is clear of joints.
   PairBox whole() const {
     PairBox box;
     for (std::size_t finger = 0; finger < 2; ++finger) {
@@ -88,8 +93,10 @@ class PairMaker {
     return box;
   }
 
+  /// A first contact from which none of the finger's contacts is at a joint.
   double clear(std::size_t finger, double s, int way) const { return clear_of_joints(part_, lengths_[finger], s, way); }
 
+  /// A pair by the outline's formulas, with each equation's value in tolerances; below `kTurnAccuracy` it is rounding.
   PairRow row(double s, double t) const {
     PairRow result{{place_of(part_, s), place_of(part_, t)}, bounds_.off(s, t)};
     for (double& off : result.off) off = std::abs(off) <= kTurnAccuracy ? 0 : off / tolerance_;
@@ -98,24 +105,30 @@ class PairMaker {
 
   // ---- boxes around placements ----
 
-  /// As large as has one root for certain, or else as is needed; none where it would meet another one.
+  /// Gives placement k the largest box that has one root for certain. If there is none, the smallest box with nothing
+  /// that fits around it. No box: a continuum, or another placement is too near.
   void find_box(std::size_t k) {
     const Placement& placement = *pairs_[k].placement;
+    // A continuum is no root in a box.
     if (placement.kind == Kind::stretch) return;
     if (placement.whole_loop[0] || placement.whole_loop[1]) return;
     const PairBox& needed = needed_[k];
     const std::array<double, 2> aspect = aspect_of(needed);
+    // From large to small: the first that passes is the largest.
     for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
       const PairBox box = box_around(placement, {size * aspect[0], size * aspect[1]});
+      // Boxes shrink around the same pair: smaller ones don't hold the extent either.
       if (!holds(box, needed)) break;
       if (!is_free(box, k) || is_near_rest(box) || !bounds_.has_one_root(box, tolerance_)) continue;
       pairs_[k].box = box;
+      // Of more than two equations the root of two of them need not satisfy the others: then `fits`.
       proofs_[k] = bounds_.count() == 2 ? PairProof::one : PairProof::fits;
       return;
     }
     find_loose_box(k, needed);
   }
 
+  /// Whether some contact of a finger comes near to a place where a curve is at rest, for starts in the box.
   bool is_near_rest(const PairBox& box) const {
     for (std::size_t finger = 0; finger < 2; ++finger) {
       const double reach = kWidthsFromRest * box[finger].width();
@@ -129,7 +142,8 @@ class PairMaker {
     return false;
   }
 
-  /// The smallest that nothing around it belongs to, as far as a little work tells.
+  /// The smallest box with a frame around it, as wide as half the box, in which nothing fits. Without one the extent
+  /// itself is the box if nothing else is in it.
   void find_loose_box(std::size_t k, const PairBox& needed) {
     const Placement& placement = *pairs_[k].placement;
     for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
@@ -138,6 +152,7 @@ class PairMaker {
       const PairBox outer = box_around(placement, {2 * size, 2 * size});
       if (!is_free(outer, k)) continue;
       if (!is_alone(box, outer)) {
+        // Once a box is found, smaller ones are tried until their frame is not empty.
         if (pairs_[k].box) break;
         continue;
       }
@@ -146,7 +161,7 @@ class PairMaker {
     if (!pairs_[k].box && is_on_part(needed) && is_free(needed, k)) pairs_[k].box = needed;
   }
 
-  /// What is between a box and a larger one around it is apart.
+  /// The frame between a box and a larger one is apart: its four sides, two of them over the full width.
   bool is_alone(const PairBox& box, const PairBox& outer) {
     const Interval before{outer[0].lo, box[0].lo};
     const Interval after{box[0].hi, outer[0].hi};
@@ -165,17 +180,19 @@ class PairMaker {
       extent = {extent.lo + shift, extent.hi + shift};
     }
     const double more = 16 * least_step(part_);
+    // On each side of the start the extent is stretched by `kSpare`, and by some steps where it is a point.
     const double before = std::max(0.0, start - extent.lo);
     const double after = std::max(0.0, extent.hi - start);
     return {clear(finger, start - kSpare * before - more, -1), clear(finger, start + kSpare * after + more, 1)};
   }
 
-  /// Of a box's sides, around 1.
+  /// Factors for both sides of a box, with product 1: boxes are as oblong as the extent, up to `kMostAspect`.
   static std::array<double, 2> aspect_of(const PairBox& needed) {
     const double ratio = std::clamp(needed[0].width() / needed[1].width(), 1 / kMostAspect, kMostAspect);
     return {std::sqrt(ratio), 1 / std::sqrt(ratio)};
   }
 
+  /// `size`: half of each side, moved on until all contacts are clear of joints.
   PairBox box_around(const Placement& placement, const std::array<double, 2>& size) const {
     PairBox box;
     for (std::size_t finger = 0; finger < 2; ++finger) {
@@ -189,6 +206,7 @@ class PairMaker {
     return box[0].lo <= inner[0].lo && box[0].hi >= inner[0].hi && box[1].lo <= inner[1].lo && box[1].hi >= inner[1].hi;
   }
 
+  /// Within the starts of an open outline; less than half a lap of a closed one, so that a box does not meet itself.
   bool is_on_part(const PairBox& box) const {
     if (part_.closed()) return box[0].width() < 0.5 * part_.perimeter() && box[1].width() < 0.5 * part_.perimeter();
     for (std::size_t finger = 0; finger < 2; ++finger) {
@@ -203,18 +221,21 @@ class PairMaker {
     if (!is_on_part(box)) return false;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (i == k) continue;
+      // Placements that come later have no box yet: their extents stand for it.
       const PairBox& other = pairs_[i].box ? *pairs_[i].box : needed_[i];
       if (pairs_[i].placement->kind != Kind::stretch && meet(box, other)) return false;
     }
     return true;
   }
 
+  /// To four steps, on this lap or a neighbouring one.
   bool meet(const PairBox& one, const PairBox& two) const {
     for (std::size_t finger = 0; finger < 2; ++finger) {
       const auto at = [&](double shift) {
         const double step = 4 * least_step(part_);
         return one[finger].lo + shift <= two[finger].hi + step && two[finger].lo <= one[finger].hi + shift + step;
       };
+      // On this lap, the next one or the one before.
       const double lap = part_.closed() ? part_.perimeter() : 0;
       if (!at(0) && !at(lap) && !at(-lap)) return false;
     }
@@ -223,24 +244,30 @@ class PairMaker {
 
   // ---- families ----
 
-  /// The line of a continuum along which both fingers' contacts move alike, if all of it fits.
+  /// The line of a continuum, if it has slope 1 or -1: both fingers' contacts move by the same arc length. Nothing if
+  /// it is bent or has another slope, or if a pair on it is off by more than a share of the tolerance.
   std::optional<PairLine> line_of(const Placement& placement) const {
     if (placement.kind != Kind::stretch || placement.family.size() != 2) return std::nullopt;
     auto from = placement.family[0];
     auto to = placement.family[1];
+    // So that finger a moves ahead.
     if (from[0] > to[0]) std::swap(from, to);
     const double period = part_.perimeter();
     PairLine line{from[0], from[1], to[1] < from[1] ? -1 : 1, to[0] - from[0]};
+    // From end to end both fingers must move by the same length.
     if (!(std::abs(std::abs(to[1] - from[1]) - line.length) <= kStraight * period)) return std::nullopt;
     const bool is_same = is_same_for_both(line);
+    // The verifier proves no line across a corner, unless both fingers' contacts are at the same places.
     if (!part_.corners().empty() && !is_same) return std::nullopt;
     if (is_same) line.t = line.s;
+    // A line that goes round begins and ends at the same pair: the search may leave out a little there.
     if (placement.whole_loop[0] && placement.whole_loop[1]) {
       if (line.length < (1 - kBeginning) * period) return std::nullopt;
       line.length = period;
     } else if (!clear_ends(line)) {
       return std::nullopt;
     }
+    // Samples only: that all of the line fits is proved by the verifier.
     for (int k = 0; k <= kLookedAt; ++k) {
       const double way = line.length * k / kLookedAt;
       for (const double off : bounds_.off(line.s + way, line.t + line.way * way)) {
@@ -250,7 +277,7 @@ class PairMaker {
     return line;
   }
 
-  /// Of those where both fingers are not at the same places nothing is said.
+  /// Drops lines between different places if proving them costs too much. Then their cells exclude nothing.
   void leave_costly_lines() {
     const auto is_costly = [&](const CoveredPair& pair) { return pair.line && !is_same_for_both(*pair.line); };
     const auto count = static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), is_costly));
@@ -260,7 +287,8 @@ class PairMaker {
     }
   }
 
-  /// At the same places all along.
+  /// Both fingers start at the same place, laps aside, and roll by the same lengths in each reading: the equations of
+  /// both cancel all along.
   bool is_same_for_both(const PairLine& line) const {
     const double apart = line.t - line.s;
     const double lap = part_.closed() ? part_.perimeter() * std::round(apart / part_.perimeter()) : 0;
@@ -270,11 +298,13 @@ class PairMaker {
   /// Lets a line end where no contact of either finger is at a joint or beyond an end.
   bool clear_ends(PairLine& line) const {
     if (line.way < 0) return false;
+    // All contacts of both fingers, measured from finger a's first one: they move together along the line.
     std::vector<double> contacts = {0, line.t - line.s};
     for (std::size_t finger = 0; finger < 2; ++finger) {
       for (const double length : lengths_[finger]) contacts.push_back(contacts[finger] + length);
     }
     Interval ends{line.s, line.s + line.length};
+    // The line ends where some contact of either finger comes to an end of the outline.
     if (!part_.closed()) {
       const Interval range = clear_starts(part_, contacts);
       ends = {std::max(ends.lo, range.lo), std::min(ends.hi, range.hi)};
@@ -284,7 +314,7 @@ class PairMaker {
     return line.length > 8 * least_step(part_);
   }
 
-  /// What holds all of a family.
+  /// First contacts of one finger within which all of a family's cells are; a full lap where the line goes round.
   Interval room_for(const Placement& placement, const PairLine& line, std::size_t finger) const {
     const double period = part_.perimeter();
     if (!part_.closed() || line.length >= period) return {0, period};
@@ -294,6 +324,7 @@ class PairMaker {
     return {from - room, from + line.length + room};
   }
 
+  /// `none` for a placement without a box in whose cells it does not start.
   CertifiedPair certified(std::size_t k) const {
     const CoveredPair& pair = pairs_[k];
     CertifiedPair result;
@@ -306,6 +337,7 @@ class PairMaker {
       result.line = {{{s, t}, {s + length, t + way * length}}};
       for (std::size_t finger : {0U, 1U}) result.extent[finger] = room_for(*pair.placement, *pair.line, finger);
     }
+    // Two opposite corners.
     if (pair.box) {
       const PairBox& box = *pair.box;
       result.box = std::array<PairRow, 2>{row(box[0].lo, box[1].lo), row(box[0].hi, box[1].hi)};
@@ -330,6 +362,7 @@ class PairMaker {
 
 namespace rollfix {
 
+/// The word in the certificate.
 const char* name_of(PairProof proof) {
   switch (proof) {
     case PairProof::one:
@@ -344,12 +377,15 @@ const char* name_of(PairProof proof) {
   return "none";
 }
 
+/// Whether every cell belongs to a placement or excludes its pairs, and every placement has its own.
 bool PairCertificate::is_complete() const {
   return cells.find('?') == std::string::npos &&
          std::none_of(placements.begin(), placements.end(),
                       [](const CertifiedPair& one) { return one.proof == PairProof::none; });
 }
 
+/// Searches by itself and draws up the certificate. Throws InputError: readings that are not of two fingers; a curve
+/// without a formula.
 PairCertificate certify_pair(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
   if (readings.empty() || readings.front().fingers() != 2) {
     throw InputError("certificates of two fingers are of two fingers' readings");

@@ -22,6 +22,7 @@ namespace rollfix::certifying {
 namespace {
 
 /// The question of an answer, without what only weighs poses.
+/// Only what decides which poses fit: touches, finger, noise or tolerance, side. No prior and no clear paths.
 TouchProblem asked(const TouchAnswer& answer, std::optional<std::size_t> budget) {
   TouchProblem problem{answer.part, answer.touches};
   if (answer.radius > 0) problem.finger = disk(answer.radius);
@@ -38,9 +39,9 @@ constexpr double kWider = 0.05;
 
 /// By how much a pose may move and turn for that.
 struct Margin {
-  double place = 0;
-  double turn = 0;
-  Vec2 about = Vec2::Zero();
+  double place = 0;           // of `about`, in the part's unit
+  double turn = 0;            // of the heading, radians
+  Vec2 about = Vec2::Zero();  // the middle of the measured centres, world
 };
 
 /// What tells a pose: where a centre was, if that is known, and whether a normal.
@@ -49,6 +50,7 @@ struct Told {
   bool normal = false;
 };
 
+/// One entry for each contact in the order of `tolerance`: rolls first, whose first contact always has a normal.
 std::vector<Told> told_by(const TouchAnswer& answer) {
   std::vector<Told> told;
   for (const RollFacts& roll : answer.rolls) told.push_back({roll.searched.at, true});
@@ -58,6 +60,9 @@ std::vector<Told> told_by(const TouchAnswer& answer) {
   return told;
 }
 
+/// The largest margin that spends no more than `kWider` of each contact's tolerance. A touch that is `away` from the
+/// middle moves by away * turn when the part turns about it. `away` counts as no less than the tolerance: a touch in
+/// the very middle must not allow every turn.
 Margin margin_of(const TouchAnswer& answer) {
   const std::vector<Told> told = told_by(answer);
   const auto count = std::count_if(told.begin(), told.end(), [](const Told& one) { return one.at.has_value(); });
@@ -95,6 +100,7 @@ void require_certifiable(const TouchAnswer& answer) {
   if (answer.rolls.empty()) return;
   const bool any_single =
       std::any_of(answer.rolls.begin(), answer.rolls.end(), [](const RollFacts& roll) { return roll.rows == 1; });
+  // A roll with one row has no reading: only its first contact counts.
   if (any_single) {
     throw InputError(
         "a certificate of rolls: expected two rows of each, found one row: give it as a touch with its normal");
@@ -116,6 +122,7 @@ void require_certifiable(const TouchAnswer& answer) {
 
 /// With its extent a little wider.
 CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& margin, bool listed) {
+  // NaN where nothing tells the place: only headings are claimed then.
   const bool has_place = !std::isnan(pose.extent[0].lo);
   CertifiedPose result{pose, {}, listed, pose.contacts.empty() || !has_place || touch::is_own(pose)};
   // The part's origin is no further from the touches than in the extent's corner that is furthest from them.
@@ -127,11 +134,13 @@ CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& m
     Interval& extent = result.pose.extent[k];
     extent = {extent.lo - by[k], extent.hi + by[k]};
   }
+  // Places by the outline's formulas, which the verifier computes again.
   for (const TouchContact& contact : pose.contacts) result.at.push_back(place_of(part, contact.s));
   return result;
 }
 
 /// A little longer, so that no place at their ends is in doubt.
+/// Arcs, each longer by `by` at both ends, from a start in [0, P); a full lap is [0, P].
 std::vector<Interval> widened(std::vector<Interval> arcs, double by, const Boundary& boundary) {
   for (Interval& arc : arcs) {
     arc = {arc.lo - by, arc.hi + by};
@@ -148,6 +157,8 @@ std::vector<Interval> widened(std::vector<Interval> arcs, double by, const Bound
 
 namespace rollfix {
 
+/// Turns an answer into a certificate. `budget`: of the search for sets that the answer leaves out. Throws InputError:
+/// fewer than two contacts, robust touches, rolls with noise or too small a tolerance, a curve without a formula.
 TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::size_t> budget) {
   certifying::require_certifiable(answer);
   TouchCertificate certificate;
@@ -157,6 +168,7 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
   for (const RollFacts& roll : answer.rolls) certificate.rolls.push_back(roll.searched);
   certificate.touches = answer.touches;
   certificate.tolerance = answer.tolerance;
+  // Places that the disk can't touch without entering the part elsewhere are left out of the verifier's search.
   if (answer.radius > 0) {
     Reach reach = reach_of_disk(answer.part, answer.radius);
     if (!reach.is_whole()) certificate.reach = std::move(reach);
@@ -168,6 +180,8 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
   for (const TouchPose& pose : answer.poses) add(pose, true);
   std::vector<Interval> unresolved = answer.unresolved;
   certificate.unresolved_touch = answer.unresolved_touch;
+  // With noise, paths or rolls the answer leaves out poses within the tolerances. The verifier finds them, so they must
+  // be among the boxes.
   if (answer.noise || !answer.clear.empty() || !answer.rolls.empty()) {
     const TouchAnswer beyond =
         touch::poses_beyond(certifying::asked(answer, budget), certificate.rolls, answer.tolerance, answer.poses);
@@ -175,6 +189,7 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
     unresolved = beyond.unresolved;  // what could not be weighed is among its sets
     certificate.unresolved_touch = beyond.unresolved_touch;
   }
+  // Arcs of open contacts are wider by the tolerance of the touch whose contacts they are.
   const double by = certificate.tolerance[certificate.unresolved_touch].length;
   certificate.unresolved = certifying::widened(std::move(unresolved), by, answer.part.boundary());
   return certificate;

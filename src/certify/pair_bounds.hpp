@@ -27,6 +27,7 @@ struct ContactStretch {
   std::vector<double> to;    // at hi
   std::vector<Range> rate;   // curvatures in between
 
+  /// Arc length; of a pivot the few steps around the corner.
   double width() const { return hi - lo; }
   /// The contact that pivots: whose range is the widest.
   std::size_t widest() const;
@@ -55,6 +56,7 @@ class ContactCurve {
   const std::vector<ContactStretch>& over(double lo, double hi, Cuts cuts = Cuts::corners);
 
   /// The angle of each contact.
+  /// Radians, unwrapped; at a corner before it or after it.
   std::vector<double> angles(double s, Side side) const;
 
  private:
@@ -62,7 +64,7 @@ class ContactCurve {
   struct Event {
     double s = 0;
     std::size_t contact = 0;
-    double turn = 0;
+    double turn = 0;  // of the corner, radians; 0 at a bend
     bool concave = false;
     bool is_corner = false;
   };
@@ -129,10 +131,14 @@ class PairBounds {
   /// The first and the last number of whole turns that the facing may be off by.
   using Turns = std::pair<int, int>;
 
+  /// Weights of the equations to those of one finger's contacts, the first contact among them.
   Weights contact_weights(const Weights& weights) const;
+  /// What a weighted sum of the equations must be equal to: readings' turns and the facing, `turns` whole turns added.
   double right_side(const Weights& weights, int turns) const;
   Weights unit(std::size_t row) const;
+  /// Bounds on a weighted sum of all equations, over all pairs of two stretches, radians.
   Range combined(const ContactStretch& a, const ContactStretch& b, const Weights& weights, int turns) const;
+  /// Which whole turns the facing may be off by on two stretches; {0, 0} without a facing.
   Turns turns(const ContactStretch& a, const ContactStretch& b) const;
   double bound(const ContactStretch& a, const ContactStretch& b) const;
   double bound(const ContactStretch& a, const ContactStretch& b, int turns) const;
@@ -140,16 +146,18 @@ class PairBounds {
                     double tolerance) const;
   bool has_one_root(const PairBox& box, std::array<std::size_t, 2> rows, double tolerance);
   bool is_apart(const PairBox& box, double tolerance, int& budget);
+  /// Where all equations are within the tolerance, if they are planes there; nothing: they are not.
   std::optional<Polygon> flat_part(const ContactStretch& a, const ContactStretch& b, double tolerance) const;
   std::optional<Polygon> part_beside(const ContactStretch& a, const ContactStretch& b, double tolerance,
                                      const PairLine& line);
+  /// Adds the box around what may fit; false: that can't be told.
   bool add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance, const PairLine* line,
                    std::vector<PairBox>& remains);
 
   std::array<ContactCurve, 2> curves_;
-  std::vector<double> turns_;
+  std::vector<double> turns_;  // theta of each reading, radians
   std::optional<double> facing_;
-  double period_;
+  double period_;  // P
   bool closed_;
 };
 
@@ -178,19 +186,24 @@ class PairCover {
     std::size_t first = 0;  // of its halves
   };
 
+  /// The claim for a box that needs no halving: an exclusion, or a placement. Empty: it must be halved.
   std::string settled(const PairBox& box);
   std::optional<std::size_t> owner(const PairBox& box);
   bool belongs(const PairBox& box, std::size_t family);
   bool is_of(const PairBox& set, const CoveredPair& pair) const;
   bool meets(const PairBox& one, const PairBox& two, double room) const;
   bool holds_start(const PairBox& box, const Placement& placement) const;
+  /// The claim for a box that is not halved any further.
   std::string left_over(const PairBox& box);
+  /// No equation changes by more than a share of the tolerance: halving tells nothing new.
   bool is_flat(const PairBox& box);
   bool is_inside(const PairBox& inner, const PairBox& outer) const;
   bool is_near(const PairBox& box, const Placement& placement) const;
+  /// Shares of a way, one for each of three laps.
   using Shares = std::array<Interval, 3>;
   Shares shares_near(const Interval& way, double place, double reach) const;
   bool is_near_line(const PairBox& box, const Placement& placement, double reach) const;
+  /// The tree from this node on, before its halves: `s` or `t`, then the lower half, then the upper one.
   void write(std::size_t cell, std::string& text) const;
 
   const Part& part_;

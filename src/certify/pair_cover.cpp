@@ -45,12 +45,15 @@ std::string level_of(double bound) {
 Interval share_near(const Interval& way, double place, double reach) {
   const double lo = (place - reach - way.lo) / way.width();
   const double hi = (place + reach - way.lo) / way.width();
+  // A line of one point: all of it or nothing.
   if (way.width() == 0) return std::abs(place - way.lo) <= reach ? Interval{0, 1} : Boundary::empty_arc();
   return {std::max(0.0, std::min(lo, hi)), std::min(1.0, std::max(lo, hi))};
 }
 
 }  // namespace
 
+/// A queue of boxes, the whole first: each gets its claim, or its two halves are put at the end. So the limits on the
+/// number of cells cut off the smallest boxes, evenly over the square.
 std::string PairCover::cells(const PairBox& whole) {
   cells_ = {{whole, "", 0}};
   for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -60,10 +63,12 @@ std::string PairCover::cells(const PairBox& whole) {
     const double least = kLeastSide * part_.perimeter();
     const bool is_done =
         cells_.size() >= kMostCells || is_flat(box) || std::max(box[0].width(), box[1].width()) < least;
+    // Above `kFewCells` boxes near a placement without a box are left to it, all others are still halved.
     if (is_done || cells_.size() >= kFewCells) {
       cells_[k].token = left_over(box);
       if (is_done || cells_[k].token != "?") continue;
     }
+    // A side of the least width is not halved. Of equal use: the longer side, so that flat parts are cut as well.
     const double use_a = box[0].width() < least ? -1 : bounds_.use_of_halving(box[0], 0);
     const double use_b = box[1].width() < least ? -1 : bounds_.use_of_halving(box[1], 1);
     const std::size_t side = use_a > use_b || (use_a == use_b && box[0].width() > box[1].width()) ? 0 : 1;
@@ -71,6 +76,7 @@ std::string PairCover::cells(const PairBox& whole) {
     PairBox second = box;
     first[side].hi = second[side].lo = box[side].middle();
     cells_[k].token = side == 0 ? "s" : "t";
+    // The halves stand behind each other at the end.
     cells_[k].first = cells_.size();
     cells_.push_back({first, "", 0});
     cells_.push_back({second, "", 0});
@@ -82,11 +88,14 @@ std::string PairCover::cells(const PairBox& whole) {
 
 /// What is to be said of a box at once.
 std::string PairCover::settled(const PairBox& box) {
+  // A box inside a placement's box needs no bounds.
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (pairs_[k].box && is_inside(box, *pairs_[k].box)) return fmt::format("[{}]", k);
   }
+  // Above the tolerance by a margin: the character then claims 2^-n and the tolerance.
   const double bound = kStated * bounds_.bound(box);
   if (bound > tolerance_) return level_of(bound);
+  // Not excluded, but what may fit in it is known to be one placement's.
   const std::optional<std::size_t> owner = this->owner(box);
   if (!owner) return "";
   pairs_[*owner].has_cell = pairs_[*owner].has_cell || holds_start(box, *pairs_[*owner].placement);
@@ -97,12 +106,14 @@ std::string PairCover::settled(const PairBox& box) {
 std::optional<std::size_t> PairCover::owner(const PairBox& box) {
   const std::optional<std::vector<PairBox>> sets = bounds_.remains(box, tolerance_, nullptr);
   std::optional<std::size_t> owner;
+  // Not planes: only beside a family's line can it be told what may fit.
   if (!sets) {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       if (pairs_[k].line && belongs(box, k)) return k;
     }
     return owner;
   }
+  // All sets that belong to some placement must belong to the same one, and it must have no box.
   for (const PairBox& set : *sets) {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       if (!is_of(set, pairs_[k])) continue;
@@ -116,6 +127,7 @@ std::optional<std::size_t> PairCover::owner(const PairBox& box) {
 /// All that may fit in a box is beside a family's line, or flat and this placement's.
 bool PairCover::belongs(const PairBox& box, std::size_t family) {
   const std::optional<std::vector<PairBox>> sets = bounds_.remains(box, tolerance_, &*pairs_[family].line);
+  // Each set belongs to the family, and to no other placement.
   return sets && std::all_of(sets->begin(), sets->end(), [&](const PairBox& set) {
            for (std::size_t k = 0; k < pairs_.size(); ++k) {
              if (is_of(set, pairs_[k]) != (k == family)) return false;
@@ -130,14 +142,17 @@ bool PairCover::is_flat(const PairBox& box) {
 
 /// Whether a set that may fit belongs to a placement: to its box, or to its extent and to the line through it.
 bool PairCover::is_of(const PairBox& set, const CoveredPair& pair) const {
+  // Extents and boxes are known to rounding only: some steps beside them still belong to them.
   const double room = 16 * least_step(part_);
   if (pair.box) return meets(set, *pair.box, room);
   const Placement& placement = *pair.placement;
   if (!meets(set, {placement.extent[0], placement.extent[1]}, room)) return false;
+  // Half of the set's shorter side: as far the line may be from its middle.
   const double reach = 0.5 * std::min(set[0].width(), set[1].width());
   return placement.family.empty() || is_near_line(set, placement, reach + placement.family_error + room);
 }
 
+/// Whether two boxes are within `room` of each other on both fingers' boundaries, laps aside.
 bool PairCover::meets(const PairBox& one, const PairBox& two, double room) const {
   const Boundary boundary = part_.boundary();
   for (const std::size_t finger : {0U, 1U}) {
@@ -147,6 +162,7 @@ bool PairCover::meets(const PairBox& one, const PairBox& two, double room) const
   return true;
 }
 
+/// To a step, on this lap or a neighbouring one.
 bool PairCover::holds_start(const PairBox& box, const Placement& placement) const {
   const double slack = least_step(part_);
   for (std::size_t finger = 0; finger < 2; ++finger) {
@@ -160,6 +176,7 @@ bool PairCover::holds_start(const PairBox& box, const Placement& placement) cons
 
 /// A placement that it is near to: that starts in it, if there is one.
 std::string PairCover::left_over(const PairBox& box) {
+  // First the placements that have no cell yet: each must start in a cell of its own.
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (pairs_[k].box || pairs_[k].has_cell || !holds_start(box, *pairs_[k].placement)) continue;
     pairs_[k].has_cell = true;
@@ -186,6 +203,8 @@ bool PairCover::is_inside(const PairBox& inner, const PairBox& outer) const {
 }
 
 bool PairCover::is_near(const PairBox& box, const Placement& placement) const {
+  // Within two sides of the box from the extent, widened. An extent that is not thin surrounds far more than the line
+  // through it: there the line decides.
   const double reach = 2 * std::max(box[0].width(), box[1].width());
   bool is_thin = placement.family.empty();
   PairBox wide{placement.extent[0], placement.extent[1]};
@@ -216,6 +235,7 @@ bool PairCover::is_near_line(const PairBox& box, const Placement& placement, dou
 }
 
 /// On the way from one place to another, by the nearest lap of the third one, the one before and the one after.
+/// Where on the way a place is within reach.
 PairCover::Shares PairCover::shares_near(const Interval& way, double place, double reach) const {
   const double period = part_.perimeter();
   if (!part_.closed()) return {share_near(way, place, reach), Boundary::empty_arc(), Boundary::empty_arc()};
@@ -226,6 +246,7 @@ PairCover::Shares PairCover::shares_near(const Interval& way, double place, doub
 
 void PairCover::write(std::size_t cell, std::string& text) const {
   text += cells_[cell].token;
+  // A leaf: cell 0 is the whole, and no half of another one.
   if (cells_[cell].first == 0) return;
   write(cells_[cell].first, text);
   write(cells_[cell].first + 1, text);

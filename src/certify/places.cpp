@@ -26,7 +26,11 @@ namespace {
 
 using Records = std::vector<CurveRecord>;
 
+/// |x / a|^n + |y / b|^n = 1. For even n the formula needs no absolute values: one curve. For odd n one curve a
+/// quarter; each quarter is the first one turned by 90 degrees times its number, so that a and b swap in every other
+/// one.
 Records superellipse(double a, double b, double n) {
+  // Even: smooth all around.
   if (std::fmod(n, 2) == 0) return {{"superellipse", {a, b, n}}};
   Records records;
   for (int quarter = 0; quarter < 4; ++quarter) {
@@ -36,10 +40,13 @@ Records superellipse(double a, double b, double n) {
   return records;
 }
 
+/// A four-digit NACA section: largest camber in % of the chord, its place in tenths, thickness in %. Along the outline
+/// v runs from -1 (upper side, trailing edge) over 0 (nose) to 1; the place along the chord is v^2.
 Records naca(const std::string& digits, double chord) {
   const double height = (digits[0] - '0') / 100.0;
   const double place = (digits[1] - '0') / 10.0;
   const double thickness = ((digits[2] - '0') * 10 + (digits[3] - '0')) / 100.0;
+  // Without camber each side is one curve; with it the camber line is two parabolas, which meet at v = +-sqrt(place).
   if (height == 0) return {{"naca-upper", {chord, thickness}}, {"naca-lower", {chord, thickness}}};
   const double top = std::sqrt(place);
   const auto piece = [&](const char* kind, double from, double to) {
@@ -51,6 +58,7 @@ Records naca(const std::string& digits, double chord) {
 
 /// The gallery's shapes with formulas of their own; none of those that are made of other curves.
 Records of_shape(const std::string& name, const Parameters& is) {
+  // The shape's parameters by name, in the order in which the verifier reads them.
   const auto listed = [&](const auto&... names) { return Records{{name, {is.number(names)...}}}; };
   if (name == "limacon") return listed("a", "b");
   if (name == "cam") return listed("base", "lift");
@@ -65,12 +73,14 @@ Records of_shape(const std::string& name, const Parameters& is) {
 /// Of a gallery's specification, "gallery:ellipse,a=2,b=1".
 Records of_gallery(const std::string& specification) {
   const std::string_view text(specification);
+  // "ellipse", "a=2", "b=1"
   const std::vector<std::string_view> parts = split(text.substr(text.find(':') + 1), ',');
   ParameterList parameters;
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const std::size_t equals = parts[k].find('=');
     parameters.emplace_back(trimmed(parts[k].substr(0, equals)), trimmed(parts[k].substr(equals + 1)));
   }
+  // A name that the gallery does not have, and a shape made of other curves, give an empty list.
   const std::string name(parts.front());
   const auto& shapes = gallery_shapes();
   const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const auto& one) { return one.name == name; });
@@ -80,8 +90,10 @@ Records of_gallery(const std::string& specification) {
 /// The formulas of an outline's curves by name and numbers, those of the gallery included. Throws InputError: a curve
 /// that has none.
 std::vector<CurveRecord> formulas_of(const Outline& outline) {
+  // A reversed gallery outline has other curves than its specification: there each curve states its own formula.
   const bool is_as_given = !outline.gallery.empty() && !outline.reversed;
   Records records = is_as_given ? of_gallery(outline.gallery) : Records{};
+  // One formula per curve is needed, because places are stated as (curve, parameter).
   if (records.size() == outline.curves.size()) return records;
   records.clear();
   for (const Curve& curve : outline.curves) {
@@ -107,6 +119,8 @@ double distance_to_joint(const Part& part, double s) {
   const auto& pieces = PartAccess::data(part).parametrization.pieces;
   const auto& panels = turning.panels();
   const double base = part.boundary().base(s);
+  // A curve consists of several panels: their borders inside of one curve are not joints. The panels that begin or end
+  // within one step of s are merged with their neighbours of the same curve, which is enough to compare with a step.
   const double step = least_step(part);
   const Spiral& spiral = turning.spirals()[turning.spiral_at(base)];
   std::size_t first = turning.panel_index(spiral, base);
@@ -118,9 +132,12 @@ double distance_to_joint(const Part& part, double s) {
   return std::min(base - panels[first].lo, panels[last].hi - base);
 }
 
+/// The largest distance between the end of a curve and the start of the next one, in the part's unit. A closed outline
+/// includes the last and the first curve.
 double largest_gap(const Outline& outline) {
   double largest = 0;
   const std::size_t count = outline.curves.size();
+  // With one closed curve this is the distance of its own ends.
   for (std::size_t k = 0; k + (outline.closed ? 0 : 1) < count; ++k) {
     largest = std::max(largest, (outline.curves[k].back() - outline.curves[(k + 1) % count].front()).norm());
   }
@@ -131,6 +148,7 @@ double largest_gap(const Outline& outline) {
 
 double least_step(const Part& part) { return kClear * part.perimeter(); }
 
+/// O(log n) in the number of spirals and panels. The clamp takes off what rounding adds beyond the curve's domain.
 CurvePlace place_of(const Part& part, double s) {
   const TurningFunction& turning = part.turning();
   const PartAccess::Data& data = PartAccess::data(part);
@@ -141,16 +159,20 @@ CurvePlace place_of(const Part& part, double s) {
   const std::size_t curve = data.parametrization.pieces[index].curve;
   const Curve& here = data.outline.curves[curve];
   const Interval domain = here.domain();
+  // Local coordinate of the panel, -1 to 1, to the curve's own parameter; then to the parameter of the stated formula.
   const double u = data.parametrization.parameter(index, (base - panel.middle) * panel.inverse_half);
   return {curve, here.formula_parameter(std::clamp(u, domain.lo, domain.hi))};
 }
 
+/// s of all curve ends where the speed |alpha'(u)| is below `kResting` of that at the curve's other end: Bezier curves
+/// whose first or last control points coincide. The curvature is infinite there.
 std::vector<double> places_at_rest(const Part& part) {
   const PartAccess::Data& data = PartAccess::data(part);
   const auto& pieces = data.parametrization.pieces;
   const auto& panels = part.turning().panels();
   std::vector<double> result;
   for (std::size_t k = 0; k < panels.size(); ++k) {
+    // A panel of another curve stands before this one, or behind it: here the curve starts, or ends.
     const bool begins = k == 0 || pieces[k - 1].curve != pieces[k].curve;
     const bool ends = k + 1 == panels.size() || pieces[k + 1].curve != pieces[k].curve;
     if (!begins && !ends) continue;
@@ -163,8 +185,11 @@ std::vector<double> places_at_rest(const Part& part) {
   return result;
 }
 
+/// `lengths`: of the contacts beside the first one, measured from s. Stops after `kMostSteps` steps also where some
+/// contact is still near a joint.
 double clear_of_joints(const Part& part, const std::vector<double>& lengths, double s, int way) {
   const double step = least_step(part);
+  // Of the contact that is nearest to a joint: all contacts move by the same step.
   const auto distance = [&] {
     double least = distance_to_joint(part, s);
     for (const double length : lengths) least = std::min(least, distance_to_joint(part, s + length));
@@ -182,9 +207,11 @@ Interval clear_starts(const Part& part, const std::vector<double>& lengths) {
   if (part.closed()) return range;
   const double step = least_step(part);
   for (const double length : lengths) {
+    // 0 <= s + L <= P, for a roll forwards and for one backwards.
     range.lo = std::max(range.lo, -length);
     range.hi = std::min(range.hi, part.perimeter() - length);
   }
+  // Less than the steps that rows need on both sides.
   if (!(range.width() > 8 * step)) {
     throw InputError(part.name() + ": a roll as long as an open outline leaves one start: nothing to certify");
   }

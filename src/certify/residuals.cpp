@@ -28,6 +28,7 @@
 namespace rollfix::certifying {
 namespace {
 
+// Halvings of a bracket: it ends sooner where no double is left in between.
 constexpr int kMostBisections = 60;
 // What is checked with balls has to miss a bound by this much at joints besides what f does over the steps that rows
 // keep from them, radians, and at corners by this share of what the finger pivots: a ball's radius has 30 bits, less
@@ -45,6 +46,8 @@ constexpr int kFlatSamples = 19;
 
 }  // namespace
 
+/// Each of the two contacts walks along its spirals from lo to hi. At a joint of the second contact f grows by the
+/// corner's turn, at one of the first contact it falls by it. O(n log n) in the number of joints passed.
 std::vector<Residual::Cut> Residual::cuts(double lo, double hi) const {
   std::vector<Cut> result{{lo}};
   for (const auto& [shift, sign] : {std::pair(from_, -1.0), std::pair(to_, 1.0)}) {
@@ -62,25 +65,31 @@ std::vector<Residual::Cut> Residual::cuts(double lo, double hi) const {
   return result;
 }
 
-/// Of f' between cuts, where each curvature is monotone; 0: not known.
+/// The sign of f' = kappa(s + to) - kappa(s + from) on a stretch without cuts; 0: it has both signs, or is not decided.
 int Residual::slope_sign(double lo, double hi, int depth) const {
+  // Each curvature is monotone here, so that its two end values enclose it.
   const double start_lo = turning_.curvature(lo + from_);
   const double start_hi = turning_.curvature(hi + from_);
   const double end_lo = turning_.curvature(lo + to_);
   const double end_hi = turning_.curvature(hi + to_);
+  // The two enclosures do not overlap: the difference has one sign.
   if (std::min(end_lo, end_hi) > std::max(start_lo, start_hi)) return 1;
   if (std::max(end_lo, end_hi) < std::min(start_lo, start_hi)) return -1;
+  // Different signs at the two ends: f' is 0 somewhere in between, and halving is of no use.
   if (depth == kMostHalvings || (end_lo > start_lo) != (end_hi > start_hi)) return 0;
   const double middle = 0.5 * (lo + hi);
   const int sign = slope_sign(lo, middle, depth + 1);
   return sign != 0 && slope_sign(middle, hi, depth + 1) == sign ? sign : 0;
 }
 
+/// One sign of f' on all pieces between cuts, the same on all of them, and no corner with a jump. Then f has at most
+/// one root between lo and hi.
 bool Residual::is_monotone(double lo, double hi) const {
   const std::vector<Cut> all = cuts(lo, hi);
   int sign = 0;
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     if (all[k].jumps()) return false;
+    // A step inside of the piece, so that each contact's curvature is taken on the piece's own spiral.
     const double inset = std::min(step_, 0.25 * (all[k + 1].s - all[k].s));
     const int here = slope_sign(all[k].s + inset, all[k + 1].s - inset, 0);
     if (here == 0 || (sign != 0 && here != sign)) return false;
@@ -94,7 +103,8 @@ bool Residual::jumps(double lo, double hi) const {
   return std::any_of(all.begin(), all.end(), [](const Cut& cut) { return cut.jumps(); });
 }
 
-/// Golden sections around the least of three.
+/// Where |f| is least between lo and hi, if it has one minimum there; golden section narrows the bracket to 4e-9 of its
+/// width.
 double Residual::refined(double lo, double hi) const {
   double inner = hi - kGolden * (hi - lo);
   double outer = lo + kGolden * (hi - lo);
@@ -112,7 +122,7 @@ double Residual::refined(double lo, double hi) const {
   return 0.5 * (lo + hi);
 }
 
-/// Where f changes its sign between two places.
+/// A root of f by bisection. REQUIRES opposite signs at lo and hi; the sign is kept at both ends of the bracket.
 double Residual::root(double lo, double hi) const {
   const bool rises = at(hi) > at(lo);
   double middle = 0.5 * (lo + hi);
@@ -123,7 +133,9 @@ double Residual::root(double lo, double hi) const {
   return middle;
 }
 
-/// Between cuts, by samples: a root between two of them, else what is refined around those that are least.
+/// On each piece between cuts |f| is sampled. A change of sign brackets a root; around each sample that is no larger
+/// than its neighbours |f| is refined. A root is also looked for across a cut without a jump. A heuristic: the verifier
+/// proves what is claimed from it.
 double Residual::nearest(double lo, double hi) const {
   const std::vector<Cut> all = cuts(lo, hi);
   double best = lo;
@@ -134,11 +146,13 @@ double Residual::nearest(double lo, double hi) const {
     least = here;
     best = s;
   };
+  // The last place looked at before this piece: what lies between it and the piece is the joint, two steps wide.
   double last = lo;
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     const double from = all[k].s + step_;
     beat();
     const double width = all[k + 1].s - step_ - from;
+    // Across a jump a change of sign is no root; corners are looked at in `is_near_at_joints`.
     if (all[k].jumps()) last = from;
     if (!(width > step_)) continue;
     if ((at(last) < 0) != (at(from) < 0)) consider(root(last, from));
@@ -158,7 +172,9 @@ double Residual::nearest(double lo, double hi) const {
   return best;
 }
 
-/// Corners that both ends of the roll come to at once each turn by any part of it.
+/// At each cut: whether f comes within the bound on either side, or by a pivot in between. If both contacts are at
+/// convex corners at once, each pivots on its own, and f takes every sum of parts of their jumps. Corners that both
+/// ends of the roll come to at once each turn by any part of it.
 bool Residual::is_near_at_joints(double bound, double lo, double hi) const {
   const std::vector<Cut> all = cuts(lo, hi);
   for (std::size_t k = 1; k + 1 < all.size(); ++k) {
@@ -166,7 +182,9 @@ bool Residual::is_near_at_joints(double bound, double lo, double hi) const {
     const double there = all[k].s + 2 * step_;
     const double miss = bound + std::max(blur(here), blur(there));
     if (std::min(size(here), size(there)) <= miss) return true;
+    // At a concave corner f has only the two values that were looked at.
     if (!all[k].jumps() || !all[k].pivots) continue;
+    // All values of f during the pivots: from the value before the corner, less all falls, to it plus all rises.
     double least = at(here);
     double most = least;
     for (const Cut& one : all) {
@@ -178,6 +196,7 @@ bool Residual::is_near_at_joints(double bound, double lo, double hi) const {
   return false;
 }
 
+/// 0 where no contact passes a joint.
 double Residual::largest_at_joints(double lo, double hi) const {
   double largest = 0;
   for (const Cut& cut : cuts(lo, hi)) {
@@ -188,12 +207,15 @@ double Residual::largest_at_joints(double lo, double hi) const {
   return largest;
 }
 
+/// Radians: the verifier's rounding, and what |f'| changes over the four steps that rows and places keep from a joint.
 double Residual::blur(double s) const { return kMissAtJoints + 4 * step_ * steepest(s); }
 
 double Residual::steepest(double s) const {
   return std::abs(turning_.curvature(s + from_)) + std::abs(turning_.curvature(s + to_));
 }
 
+/// |f| <= `kTurnAccuracy`, and what an error of 1e-15 P in the places changes. More samples than a polynomial of the
+/// turning function has coefficients, so that none of them can vanish at all samples and not in between.
 bool Residual::is_flat(double lo, double hi) const {
   for (int i = 0; i <= kFlatSamples; ++i) {
     const double s = lo + (hi - lo) * i / kFlatSamples;
@@ -202,6 +224,7 @@ bool Residual::is_flat(double lo, double hi) const {
   return true;
 }
 
+/// Pieces that only a cut separates are joined: f is continuous there if it is 0 on both sides.
 std::vector<Interval> Residual::flat(double lo, double hi) const {
   const std::vector<Cut> all = cuts(lo, hi);
   std::vector<Interval> result;
@@ -246,6 +269,7 @@ Residuals::Residuals(const Part& part, const std::vector<Reading>& readings, dou
   }
 }
 
+/// max over k of |f_k(s)|, radians.
 double Residuals::size(double s) const {
   double largest = 0;
   for (const Residual& f : f_) largest = std::max(largest, f.size(s));
@@ -256,13 +280,16 @@ bool Residuals::jumps(double lo, double hi) const {
   return std::any_of(f_.begin(), f_.end(), [&](const Residual& f) { return f.jumps(lo, hi); });
 }
 
+/// Radians. With several readings `kTurnAccuracy` more, for the rounding of their differences.
 double Residuals::edge() const { return (1 + kLeastMiss) * tolerance_ + (f_.size() > 1 ? kTurnAccuracy : 0); }
 
 double Residuals::excluded() const { return f_.size() > 1 ? edge() : tolerance_; }
 
-/// Where f is outside of that bound all the way.
+/// Whether |f| > bound from lo to hi. A row is suggested where |f| is least, if that is inside and below both ends: the
+/// cell `apart` claims a share of |f| at its nearer end, which must not be far above the minimum.
 std::optional<Exclusion> Residuals::exclusion(const Residual& f, double bound, double lo, double hi) const {
   const double ends = std::min(f.size(lo), f.size(hi));
+  // The cheapest test first.
   if (ends <= bound) return std::nullopt;
   const double nearest = clear(f.nearest(lo, hi), 1);
   if (f.size(nearest) <= bound || f.is_near_at_joints(bound, lo, hi)) return std::nullopt;
@@ -277,12 +304,14 @@ std::optional<Exclusion> Residuals::exclusion_by_one(double lo, double hi) const
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) { return miss(one) > miss(other); });
   for (const std::size_t k : order) {
+    // Order is a matter of cost: the reading that is furthest off is the likeliest to exclude the whole stretch.
     if (const auto found = exclusion(f_[k], excluded(), lo, hi)) return Exclusion{{k}, found->row};
   }
   return std::nullopt;
 }
 
-/// At a corner where the roll starts all readings pivot by one angle, which each of them alone may fit.
+/// At a convex corner where the roll starts Theta(s) is a free angle, the same for all readings. f_j - f_k does not
+/// contain it. Where both |f| <= tolerance, |f_j - f_k| <= 2 tolerance: beyond that no start fits.
 std::optional<Exclusion> Residuals::exclusion_by_two(double lo, double hi) const {
   for (std::size_t k = 0; k < f_.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j) {
@@ -293,17 +322,21 @@ std::optional<Exclusion> Residuals::exclusion_by_two(double lo, double hi) const
   return std::nullopt;
 }
 
+/// Two readings cost O(n^2) of their count, and help only at corners: they are tried on narrow stretches alone.
 std::optional<Exclusion> Residuals::exclusion(double lo, double hi) const {
   const auto found = exclusion_by_one(lo, hi);
   return found || hi - lo >= kManySteps * step_ ? found : exclusion_by_two(lo, hi);
 }
 
+/// The middle, or if a convex corner lies inside, a place four steps beside it: two such halvings leave the corner
+/// alone in a narrow cell, to which `exclusion_by_two` applies.
 double Residuals::split(double lo, double hi) const {
   const double period = part_.perimeter();
   const double beside = 4 * step_;
   const auto is_inside = [&](double s) { return s > lo + step_ && s < hi - step_; };
   for (const Corner& corner : part_.corners()) {
     if (corner.is_concave()) continue;
+    // The corner's first lap from lo on.
     const double s = corner.s + (part_.closed() ? period * std::ceil((lo - corner.s) / period) : 0);
     if (is_inside(s + beside)) return clear(s + beside, 1);
     if (is_inside(s - beside)) return clear(s - beside, -1);
@@ -311,6 +344,7 @@ double Residuals::split(double lo, double hi) const {
   return clear(0.5 * (lo + hi), 1);
 }
 
+/// The intersection over all readings.
 std::vector<Interval> Residuals::flat(double lo, double hi) const {
   std::vector<Interval> all = f_[0].flat(lo, hi);
   for (std::size_t k = 1; k < f_.size(); ++k) all = common(all, f_[k].flat(lo, hi));

@@ -15,15 +15,19 @@ namespace rollfix::certifying {
 /// has no bearing: what a certificate is drawn up by.
 class Residual {
  public:
+  /// f of one reading of one finger: from = 0, to = L, turn = theta.
   Residual(const Part& part, const Reading& reading) : Residual(part, 0, reading.length[0], reading.turn) {}
+  /// f_one - f_other = Theta(s + L_one) - Theta(s + L_other) - (theta_one - theta_other).
   static Residual difference(const Part& part, const Reading& one, const Reading& other) {
     return {part, other.length[0], one.length[0], one.turn - other.turn};
   }
 
+  /// Radians. At a corner the value just after it.
   double at(double s) const { return turning_.angle(s + to_) - turning_.angle(s + from_) - turn_; }
   double size(double s) const { return std::abs(at(s)); }
 
   /// Between these f has one sign of slope, and no jump.
+  /// False also where halving does not decide it: no claim is made then.
   bool is_monotone(double lo, double hi) const;
 
   /// Whether f has a jump between these.
@@ -57,23 +61,27 @@ class Residual {
     bool jumps() const { return std::abs(jump) > 0.5 * kTurnAccuracy; }
   };
 
+  /// By rising s, with lo first and hi last; between two neighbours each contact stays on one spiral.
   std::vector<Cut> cuts(double lo, double hi) const;
+  /// A bound on |f'| at s, from the size of both curvatures: the sum, so that it is never 0 by cancellation.
   double steepest(double s) const;
   int slope_sign(double lo, double hi, int depth) const;
+  /// Whether |f| is 0 to rounding at samples of the stretch, which must contain no cut.
   bool is_flat(double lo, double hi) const;
+  /// A local minimum of |f|, by golden section.
   double refined(double lo, double hi) const;
   double root(double lo, double hi) const;
 
   const TurningFunction& turning_;
   double step_;  // the least between places
-  double from_;
-  double to_;
-  double turn_;
+  double from_;  // of the first contact of the difference, measured from s
+  double to_;    // of the second one
+  double turn_;  // what Theta is to grow by in between, radians
 };
 
 /// Readings of which one at least is outside the tolerance all the way, and a row where they come nearest to it.
 struct Exclusion {
-  std::vector<std::size_t> by;
+  std::vector<std::size_t> by;  // one reading, or two whose difference excludes; numbered from 0
   std::optional<double> row;
 };
 

@@ -15,10 +15,11 @@ class ConvexBody {
   Vec2 farthest(double direction) const;
 
  private:
+  /// The same in the finger's own frame: its support point.
   Vec2 farthest_in_frame(double direction) const;
 
-  const Finger& finger_;
-  Pose pose_;  // of the finger's frame
+  const Finger& finger_;  // has to outlive the body
+  Pose pose_;             // of the finger's frame
 };
 
 /// By how much two of them have to be moved, at least, until they are apart; below 0 where they are: then less it is

@@ -10,6 +10,15 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 
+// Notation:
+//   u, psi          contact on the finger, the finger's orientation: Contact
+//   N(u)            direction of the finger's outward normal in its own frame: `normal`; at a corner all of `normals`
+//   kappa_f         dN / d(arc length): `curvature`
+//   L, theta        length rolled on the part, turn of its tangent: Reading; `pivot`: theta is known to +- that
+// Follows eqs. (3) and (7)-(9) of the paper (Jia, IROS 2001); docs/rolling.md, "Fingers of any convex shape" and
+// "Fingers with corners".
+// Idea: a disk, a jaw and an outline differ only in N(u), kappa_f and the place of u. Rolling without slip covers the
+// same length on both bodies, and their normals stay opposite: so two contacts give a reading without an integral.
 namespace rollfix {
 
 namespace {
@@ -20,6 +29,7 @@ constexpr double kFlat = 1e-9;
 // Of the length of its outline: a contact so near to a corner may be on it by rounding.
 constexpr double kAtCorner = 1e-9;
 
+/// Throws InputError with what was found and where: u and the point there.
 [[noreturn]] void refuse_finger(const Part& part, double u, const std::string& found) {
   const Vec2 point = part.point(u);
   throw InputError(
@@ -28,6 +38,8 @@ constexpr double kAtCorner = 1e-9;
                   part.name(), found, u, point.x(), point.y()));
 }
 
+/// Throws InputError: a concave corner, or a spiral with a curvature below 0 by more than rounding. kappa is monotone
+/// on a spiral, so that its ends are enough.
 void require_convex(const Part& part) {
   for (const Corner& corner : part.corners()) {
     if (corner.turn < -kJointTurn) {
@@ -52,8 +64,10 @@ Vec2 unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
 
+/// A finger that is the x axis of its frame.
 Finger jaw() { return {Finger::Kind::jaw, "jaw"}; }
 
+/// Copies the outline, which is shared by all copies of the finger.
 Finger Finger::outlined(const Part& outline) {
   Finger finger(Kind::outline, outline.name());
   finger.outline_ = std::make_shared<const Part>(outline);
@@ -67,11 +81,13 @@ std::optional<DiskFinger> Finger::disk() const {
   return is_disk() ? std::optional<DiskFinger>(DiskFinger{radius_}) : std::nullopt;
 }
 
+/// An outline has its body on the left, so that the outward normal is a quarter turn behind the tangent.
 double Finger::normal(double u) const {
   if (is_disk()) return u;
   return is_jaw() ? -kQuarterTurn : outline_->turning().angle(u) - kQuarterTurn;
 }
 
+/// A place within `within` of several corners has the normals of all of them. Linear in the number of corners.
 Interval Finger::normals(double u, double within) const {
   Interval all{normal(u), normal(u)};
   if (!has_corners()) return all;
@@ -79,8 +95,10 @@ Interval Finger::normals(double u, double within) const {
   const double P = outline_->perimeter();
   for (const Corner& corner : outline_->corners()) {
     if (!pivots(corner)) continue;
+    // The corner's lap that is nearest to u: u of a closed outline is unwrapped.
     const double laps = outline_->closed() ? std::round((u - corner.s) / P) : 0;
     if (std::abs(u - corner.s - laps * P) > within + kAtCorner * P) continue;
+    // N grows by a whole turn each lap.
     const double lap_turn = laps * turning.period_turn() - kQuarterTurn;
     all.lo = std::min(all.lo, turning.angle(corner.s, Side::before) + lap_turn);
     all.hi = std::max(all.hi, turning.angle(corner.s, Side::after) + lap_turn);
@@ -90,16 +108,19 @@ Interval Finger::normals(double u, double within) const {
 
 bool Finger::is_on_corner(double u, double within) const { return normals(u, within).width() > 0; }
 
+/// kappa_f; radians per length.
 double Finger::curvature(double u) const {
   if (is_disk()) return 1 / radius_;
   return is_jaw() ? 0 : outline_->turning().curvature(u);
 }
 
+/// Of a disk r (cos u, sin u), of a jaw (u, 0).
 Vec2 Finger::point(double u) const {
   if (is_disk()) return radius_ * unit_vector(u);
   return is_jaw() ? Vec2(u, 0) : outline_->point(u);
 }
 
+/// Per radian of u of a disk, per length of all others.
 double Finger::turn_per_u() const {
   if (is_disk()) return 1;
   return is_jaw() ? 0 : outline_->turning().most_curvature();
@@ -153,6 +174,7 @@ void require_no_corners(const std::vector<Finger>& fingers, const std::string& w
 
 double facing(const Finger& finger, const Contact& contact) { return finger.normal(contact.u) + contact.psi; }
 
+/// Eq. (3). On corners N is an interval at both ends: theta is its middle, `pivot` half of both widths together.
 Reading reading_between(const Finger& finger, const Contact& first, const Contact& last, double within) {
   if (finger.has_corners()) {
     const Interval from = finger.normals(first.u, within);
@@ -162,10 +184,12 @@ Reading reading_between(const Finger& finger, const Contact& first, const Contac
     return reading;
   }
   const double rolled = last.u - first.u;
+  // Of a disk N = u, whatever the radius.
   const double turned = finger.is_disk() ? rolled : finger.normal(last.u) - finger.normal(first.u);
   return {-finger.length_per_u() * rolled, turned + (last.psi - first.psi)};  // eq. (3)
 }
 
+/// Solves eq. (3) for the last contact: u from L, then psi from theta.
 Contact contact_after(const Finger& finger, const Contact& first, const Reading& reading) {
   const double rolled = reading.length[0] / finger.length_per_u();
   const double u = first.u - rolled;
@@ -173,12 +197,15 @@ Contact contact_after(const Finger& finger, const Contact& first, const Reading&
   return {u, first.psi + (reading.turn + turned)};
 }
 
+/// u = Theta + pi / 2 - psi.
 Contact contact_on(double tangent, double psi) { return {nearest_angle(tangent + kQuarterTurn - psi), psi}; }
 
+/// psi = Theta + pi / 2 - N(u).
 Contact contact_at(const Finger& finger, double tangent, double u) {
   return {u, tangent + kQuarterTurn - finger.normal(u)};
 }
 
+/// The point less R(psi) times the place on the finger.
 Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) {
   if (finger.is_disk()) return point - finger.length_per_u() * unit_vector(contact.facing());
   const Vec2 x = unit_vector(contact.psi);
@@ -186,6 +213,7 @@ Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) 
   return point - (on_finger.x() * x + on_finger.y() * Vec2(-x.y(), x.x()));
 }
 
+/// The normal and the direction across it are the frame in which `at` is given; both turn by kappa_f along the finger.
 Arm arm_of(const Finger& finger, double u) {
   if (finger.is_disk()) return {Vec2(finger.length_per_u(), 0), Vec2::Zero()};
   const Vec2 normal = unit_vector(finger.normal(u));
@@ -197,6 +225,8 @@ Arm arm_of(const Finger& finger, double u) {
   return arm;
 }
 
+/// Two fingers on a part that moves: its own rotation is in both turns and cancels in their difference. What both
+/// corners leave open adds up.
 Reading together(const PerFinger<Reading>& each) {
   if (each.size() == 1) return each[0];
   Reading both{each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};  // eqs. (7)-(9)
@@ -204,6 +234,7 @@ Reading together(const PerFinger<Reading>& each) {
   return both;
 }
 
+/// Only L changes: the tangent of the reversed outline turns by the same angle along the same way.
 Reading in_stored_direction(const Reading& as_given, const Part& part) {
   Reading result = as_given;
   if (!part.reversed()) return result;

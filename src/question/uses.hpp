@@ -21,11 +21,12 @@ class Uses {
   void refuse(bool is_given, std::string_view name) const;
 
  private:
+  /// The message for this kind of contacts.
   std::string why_not(std::string_view name) const;
 
-  const Question& question_;
-  QuestionKind kind_;
-  bool has_rolls_;
+  const Question& question_;  // has to outlive this
+  QuestionKind kind_;         // which search answers
+  bool has_rolls_;            // logs of fingers are among the contacts
 };
 
 /// Throws InputError: contacts of different kinds, none at all.
@@ -34,6 +35,7 @@ void require_contacts(const Question& question);
 /// The options that a search has fields for; those that it has not must not be given.
 template <class Searched>
 void hand_over(const Question& question, Searched& problem) {
+  // A field that the problem has is handed over; what is given of the others is refused. These three all searches take.
   const Uses uses(question);
   problem.noise = question.noise;
   problem.budget = question.budget;
@@ -50,10 +52,12 @@ void hand_over(const Question& question, Searched& problem) {
     problem.prior = question.prior;
   else
     uses.refuse(question.prior.has_value(), "prior");
+  // `heading` is a pose prior without a place: its message has its own name.
   if constexpr (requires { problem.pose; })
     problem.pose = question.pose;
   else if (question.pose)
     uses.refuse(true, name_of(*question.pose));
+  // Counting clockwise is no field: `roll_problem` turns the lengths.
   if constexpr (requires { problem.either_way; })
     problem.either_way = question.direction == Direction::either;
   else
@@ -66,11 +70,14 @@ void hand_over(const Question& question, Searched& problem) {
     problem.may_overlap = question.may_overlap;
   else
     uses.refuse(question.may_overlap, "may_overlap");
+  // Refused in `require_contacts` where no wheel is given.
   if constexpr (requires { problem.squeezed; }) problem.squeezed = question.squeezed;
+  // Paths that were free before a touch.
   if constexpr (requires { problem.clear; })
     problem.clear = question.measured.clear;
   else
     uses.refuse(!question.measured.clear.empty(), "clear");
+  // A search that looks for no mistakes needs no message.
   if constexpr (requires { problem.diagnose; }) problem.diagnose = question.diagnose;
 }
 

@@ -14,25 +14,35 @@
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
+// `locate --march`: the answer by the paper's own algorithm, with its counts.
+// Notation:
+//   h, T / h        a step of the curves' parameter; steps of one loop: `steps_per_loop`
+//   (s, t)          what was found: `start`, of one finger s alone
+// Follows the paper (Jia, IROS 2001): section 2, eqs. (4) and (5), in `march_one`; section 3, eqs. (8) and (9), in
+// `march_two`. docs/march.md.
+// Idea: the march takes one reading of one finger, or two of two. Readings beyond these only drop what they do not fit,
+// by the turning function.
 namespace rollfix::app {
 namespace {
 
 /// A find of either algorithm; an entry for each finger.
 struct Found {
-  std::vector<double> start;
-  std::vector<double> end;  // at the last reading
+  std::vector<double> start;  // arc length, in [0, P) of a closed part
+  std::vector<double> end;    // at the last reading
   std::string how;
-  double error = 0;
-  double residual = 0;  // radians
-  double rate = 0;      // Lemma 2; 0 for bisection
-  std::size_t rounds = 0;
+  double error = 0;        // of the start, length
+  double residual = 0;     // radians
+  double rate = 0;         // Lemma 2; 0 for bisection
+  std::size_t rounds = 0;  // of the march's iteration
 };
 
+/// Steps of one kind.
 struct Counted {
   std::string name;
   std::size_t count = 0;
 };
 
+/// What either march found, in one form.
 struct Marched {
   std::vector<Found> found;
   std::size_t further = 0;                        // finds that a further reading does not fit
@@ -45,6 +55,7 @@ struct Marched {
   bool complete() const { return unresolved.empty(); }
 };
 
+/// How a segment was found; `boundary`: at the end of a mode.
 const char* name_of(march::Found found) {
   switch (found) {
     case march::Found::case_1:
@@ -58,6 +69,7 @@ const char* name_of(march::Found found) {
   }
 }
 
+/// Likewise of a pair.
 const char* name_of(march::PairFound found) {
   switch (found) {
     case march::PairFound::bisection:
@@ -70,6 +82,7 @@ const char* name_of(march::PairFound found) {
 }
 
 /// Section 2.
+/// The paper's segments for the first reading; `doubts` become unresolved intervals.
 Marched march_one(const Part& part, const MarchQuestion& question) {
   march::Options options;
   options.step = question.step;
@@ -97,6 +110,7 @@ Marched march_one(const Part& part, const MarchQuestion& question) {
 }
 
 /// Section 3.
+/// The paper's pairs for the first two readings.
 Marched march_two(const Part& part, const MarchQuestion& question) {
   march::PairMarchOptions options;
   options.step = question.step;
@@ -126,6 +140,7 @@ Marched march_two(const Part& part, const MarchQuestion& question) {
 }
 
 /// By how much a reading is off for a roll from these starts: the turning function tells.
+/// |Phi of finger a's roll - Phi of finger b's - theta|, radians; of one finger without the second term.
 double residual(const Part& part, const MarchReading& reading, const std::vector<double>& start) {
   double turn = -reading.turn;
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -137,6 +152,7 @@ double residual(const Part& part, const MarchReading& reading, const std::vector
 
 /// "To eliminate the ambiguities, the disk continues rolling": whatever a further reading does not fit goes.
 void judge_by_further_readings(const Part& part, const MarchQuestion& question, std::size_t used, Marched& marched) {
+  // The largest residual over all further readings; the readings that were searched with are not compared again.
   const auto misfit = [&](Found& found) {
     for (std::size_t k = used; k < question.readings.size(); ++k) {
       found.residual = std::max(found.residual, residual(part, question.readings[k], found.start));
@@ -146,20 +162,24 @@ void judge_by_further_readings(const Part& part, const MarchQuestion& question, 
   const auto rest = std::remove_if(marched.found.begin(), marched.found.end(), misfit);
   marched.further = static_cast<std::size_t>(marched.found.end() - rest);
   marched.found.erase(rest, marched.found.end());
+  // The end of the roll at the last reading.
   for (Found& found : marched.found) {
     for (std::size_t i = 0; i < found.start.size(); ++i) {
+      // After the last reading, on the first lap.
       const double end = found.start[i] + question.readings.back().length[i];
       found.end.push_back(part.closed() ? wrap(end, part.perimeter()).base : end);
     }
   }
 }
 
+/// The first word of the answer.
 std::string march_verdict(const Marched& marched) {
   if (!marched.complete()) return "undecided";
   if (marched.found.empty()) return "inconsistent";
   return marched.found.size() == 1 ? "unique" : fmt::format("ambiguous ({})", marched.found.size());
 }
 
+/// As `locate` lists a placement, with what the march alone knows: how it was found, rate and rounds.
 Json placement_json(const Part& part, const Found& found) {
   Json extent = Json::array(), point = Json::array(), tangent = Json::array();
   for (const double start : found.start) {
@@ -185,6 +205,7 @@ Json placement_json(const Part& part, const Found& found) {
           {"rounds", found.rounds}};
 }
 
+/// Schema rollfix/locate/1 with `method` march.
 std::string march_json(const Part& part, const MarchQuestion& question, const Marched& marched) {
   Json readings = Json::array(), placements = Json::array(), unresolved = Json::array();
   for (const MarchReading& reading : question.readings) {
@@ -212,6 +233,7 @@ std::string march_json(const Part& part, const MarchQuestion& question, const Ma
                     {"counts", counts}});
 }
 
+/// No more than kMostRows rows.
 std::string table_of(const Part& part, const Marched& marched) {
   const int decimals = decimals_for(part.perimeter());
   const bool two = marched.found.front().start.size() == 2;
@@ -240,6 +262,7 @@ std::string table_of(const Part& part, const Marched& marched) {
   return '\n' + table.str() + (more == 0 ? "" : fmt::format("... and {} more; --json lists them all\n", more));
 }
 
+/// As `locate` prints its answer.
 std::string march_text(const Part& part, const MarchQuestion& question, const Marched& marched) {
   const int decimals = decimals_for(part.perimeter());
   const auto loop = static_cast<double>(marched.steps_per_loop);
@@ -287,7 +310,9 @@ double read_step(const MarchArguments& arguments) {
   return step;
 }
 
+/// One reading is used for one finger, two for two; all others judge what was found.
 Report locate_by_march(const Part& part, const MarchQuestion& question) {
+  // One reading of one finger, two of two: as many as fingers.
   const std::size_t used = question.readings.front().length.size();
   if (question.readings.size() < used) {
     throw InputError("--march: the paper needs two readings of two fingers, found one; leave --march out");

@@ -12,6 +12,16 @@
 #include "rollfix/paper/claim.hpp"
 #include "rollfix/part.hpp"
 
+// What the paper says of one finger, computed again and compared.
+// Notation:
+//   a, b            start and end of a segment that fits: `root`, `root` + L; s_i, t_i: the march's sequences
+//   Phi(s, t)       `turn_of`, by the turning function, which the march does not know
+//   T / h           steps of one loop: `steps_per_loop`; m: steps until t_0
+//   z_k             inflections: `breakpoints`; sigma(s) = s + L
+// Follows the paper (Jia, IROS 2001), sections 2.1 and 2.2: Lemmas 1 and 2, Theorems 4 and 5, Figures 2, 3 and 7.
+// docs/march.md has the results.
+// Idea: questions with a known answer are planted on gallery parts; the march answers them and counts its steps and
+// rounds; the turning function, built in another way, tells whether its claims hold.
 namespace rollfix::app {
 namespace {
 
@@ -25,14 +35,16 @@ constexpr std::size_t kRounds = 20000;
 /// A question with a known answer, so that at least one segment fits; all numbers by the turning function, which the
 /// march does not know.
 struct Planted {
-  double length = 0;
-  double turn = 0;
+  double length = 0;  // L
+  double turn = 0;    // theta = Phi of the roll that was planted, radians
 };
 
+/// Phi(s, s + length), radians.
 double turn_of(const Part& part, double s, double length) {
   return part.turning().angle(s + length) - part.turning().angle(s);
 }
 
+/// Four lengths times three starts, as shares of the perimeter.
 std::vector<Planted> planted_on(const Part& part) {
   std::vector<Planted> questions;
   for (const double length : {0.13, 0.29, 0.57, 0.81}) {
@@ -44,6 +56,7 @@ std::vector<Planted> planted_on(const Part& part) {
   return questions;
 }
 
+/// The step h that divides the parameters of all curves into about so many.
 march::Options with_steps(const Outline& outline, int steps) {
   double range = 0;  // the paper's T
   for (const Curve& curve : outline.curves) range += curve.domain().width();
@@ -62,6 +75,8 @@ struct Counts {
   double exponent = 0;  // the total's growth with T/h: furthest from 1
 };
 
+/// Runs each planted question with each step length. The growth of the total is its exponent between the coarsest and
+/// the finest step: 1 if it is linear in T / h.
 template <class Shapes>
 Counts count_steps(const Shapes& shapes) {
   Counts most;
@@ -79,6 +94,7 @@ Counts count_steps(const Shapes& shapes) {
         most.start = std::max(most.start, static_cast<double>(result.steps.start) / loop);
         most.marching = std::max(most.marching, static_cast<double>(result.steps.marching) / loop);
         most.total = std::max(most.total, total / loop);
+        // Kept until the same question comes with the finest step.
         if (steps == kStepsPerLoop.front()) ends.emplace_back(std::log(loop), std::log(total));
         if (steps != kStepsPerLoop.back()) continue;
         const double exponent = (std::log(total) - ends[i].second) / (std::log(loop) - ends[i].first);
@@ -89,6 +105,7 @@ Counts count_steps(const Shapes& shapes) {
   return most;
 }
 
+/// Convex parts: largest counts of the marches, as multiples of T / h.
 Claim theorem_4() {
   const Counts most = count_steps(kConvex);
   return {"Theorem 4",
@@ -98,6 +115,7 @@ Claim theorem_4() {
           {{"runs", most.runs}, {"marching", most.marching}, {"start", most.start}}};
 }
 
+/// Parts with inflections: the total of all steps, and its growth.
 void add_theorem_5(std::vector<Claim>& claims) {
   constexpr double kLinear = 0.05;  // a step more or less at the coarsest h
   const Counts most = count_steps(kWavy);
@@ -121,6 +139,8 @@ struct Limit {
   double rate = 0;  // kappa(a) / kappa(b), or its inverse, by the turning function
 };
 
+/// The limit of a march by three Newton steps on f(s) = Phi(s, s + L) - theta, from where the march ended; the rate of
+/// Lemma 2 by the curvatures there.
 Limit limit_of(const Part& part, const Planted& asked, const march::Segment& segment) {
   const auto curvature = [&](double s) { return part.turning().curvature(s); };
   Limit limit{segment, segment.start, 0};
@@ -128,12 +148,14 @@ Limit limit_of(const Part& part, const Planted& asked, const march::Segment& seg
     const double slope = curvature(limit.root + asked.length) - curvature(limit.root);
     limit.root -= (turn_of(part, limit.root, asked.length) - asked.turn) / slope;
   }
+  // Case 1 converges by kappa(a) / kappa(b), Case 2 by its inverse.
   const double ratio = curvature(limit.root) / curvature(limit.root + asked.length);
   limit.rate = segment.found == march::Found::case_1 ? ratio : 1 / ratio;
   return limit;
 }
 
 /// By how much the error shrinks in a round, where it is small and rounding does not matter yet.
+/// The geometric mean of the ratios of successive errors, between two sizes of the error; nothing where rounds are few.
 std::optional<double> measured_rate(const Limit& limit, double perimeter) {
   constexpr double kFrom = 1e-4, kTo = 1e-9;
   constexpr std::size_t kFewest = 8;  // rounds that tell a rate
@@ -156,17 +178,20 @@ struct Rounds {
   double rate_error = 0;                  // of the measured rate, the largest
   bool rising = true;                     // s_i < s_{i+1} < a
 
+  /// One march's rounds: how many are as drawn, and the largest error of the equation that they keep.
   void take(const Part& part, const Planted& asked, const Limit& limit) {
     const bool first_case = limit.segment.found == march::Found::case_1;
     const std::size_t k = first_case ? 0 : 1;
     const double rounding = 1e-11 * part.perimeter();
     double before = -part.perimeter();
     for (const march::Iterate& at : limit.segment.sequence) {
+      // Phi(s_i, t_i) - theta is 0 in Case 1, l(s_i, t_i) - L in Case 2; the other one is above 0 until the limit.
       const double turn = part.turning().angle(at.end) - part.turning().angle(at.start) - asked.turn;
       const double length = at.end - at.start - asked.length;
       ++rounds[k];
       as_drawn[k] += (first_case ? length > -rounding : turn > -rounding) ? 1 : 0;
       off[k] = std::max(off[k], std::fabs(first_case ? turn : length));
+      // Lemma 1.
       rising = rising && at.start > before && at.start < limit.root + rounding;
       before = at.start;
     }
@@ -179,6 +204,7 @@ struct Rounds {
   }
 };
 
+/// Marches on convex parts with their sequences recorded.
 void add_rounds(std::vector<Claim>& claims) {
   constexpr double kSameRate = 1e-3;  // the rate of a finite error is not that of the limit
   constexpr double kHolds = 1e-10;
@@ -220,6 +246,7 @@ void add_rounds(std::vector<Claim>& claims) {
 using Signs = std::pair<bool, bool>;
 constexpr bool kConvexSign = true, kConcaveSign = false;
 
+/// What Figure 3 shows, counted over all marches.
 struct Modes {
   std::map<Signs, std::size_t> met;
   std::size_t kept = 0;  // modes in which the curvatures keep their signs
@@ -234,12 +261,14 @@ void slide(const Part& part, const std::vector<march::Breakpoint>& z, double len
   std::vector<double> ends;
   for (const march::Breakpoint& point : z) {
     ends.push_back(point.s);
+    // t = s + L comes to z there.
     ends.push_back(wrap(point.s - length, part.perimeter()).base);  // sigma^-1(z)
   }
   std::sort(ends.begin(), ends.end());
   std::vector<Signs> sequence;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const double end = i + 1 < ends.size() ? ends[i + 1] : ends.front() + part.perimeter();
+    // At a share of the way through the mode: in its middle, and near both ends.
     const auto signs = [&](double share) {
       const double s = ends[i] + share * (end - ends[i]);
       return Signs(part.turning().curvature(s) > 0, part.turning().curvature(s + length) > 0);
@@ -258,6 +287,7 @@ void slide(const Part& part, const std::vector<march::Breakpoint>& z, double len
   }
 }
 
+/// Where the modes end, and which of them search by bisection.
 void add_figure_3(std::vector<Claim>& claims) {
   Modes modes;
   for (const char* shape : kWavy) {
@@ -268,6 +298,7 @@ void add_figure_3(std::vector<Claim>& claims) {
     for (const Planted& asked : planted_on(part)) {
       slide(part, prepared.breakpoints(), asked.length, modes);
       for (const march::Segment& segment : prepared.segments(asked.length, asked.turn).segments) {
+        // Signs of kappa at start and end differ: convex-concave or concave-convex.
         const bool mixed = part.turning().curvature(segment.start) * part.turning().curvature(segment.end) < 0;
         ++modes.finds[mixed ? 1 : 0];
         modes.bisections[mixed ? 1 : 0] += segment.found == march::Found::bisection ? 1 : 0;
@@ -298,6 +329,7 @@ void add_figure_7(std::vector<Claim>& claims) {
   constexpr double kFits = 1e-6;  // radians
   const Part part(gallery("spline,n=9,seed=7,wobble=0.2"));
   const march::Result at_b = march::locate(part.outline(), {kToB, turn_of(part, kStart, kToB)});
+  // The second roll's turn, which the march at b has not been told.
   const double further = turn_of(part, kStart + kToB, kOnToC);
   const auto left = std::count_if(at_b.segments.begin(), at_b.segments.end(), [&](const march::Segment& segment) {
     return std::fabs(turn_of(part, segment.end, kOnToC) - further) < kFits;
@@ -311,6 +343,7 @@ void add_figure_7(std::vector<Claim>& claims) {
 
 }  // namespace
 
+/// In the order in which the program prints them.
 void add_one_finger_claims(std::vector<Claim>& claims) {
   add_rounds(claims);
   claims.push_back(theorem_4());

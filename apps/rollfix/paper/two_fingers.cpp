@@ -10,14 +10,23 @@
 #include "rollfix/paper/claim.hpp"
 #include "rollfix/part.hpp"
 
+// What the paper says of two fingers, computed again and compared.
+// Notation:
+//   phi_1, phi_2    total curvatures of finger a's two rolls from s
+//   phi_3, phi_4    of finger b's from t, here with theta_1 and theta_2 added: (8) is phi_1 = phi_3, (9) phi_2 = phi_4
+//   [a_i, a_i+1]    intervals on which phi_1 and phi_2 are monotone: `a.intervals`; [b_j, b_j+1]: `b.intervals`
+//   x, y; w, z      ends of s and of t between which (8) pairs them: march::Correspondence
+// Follows the paper (Jia, IROS 2001), sections 3.1, 3.2 and 4: Figures 5, 6 and 8. docs/march.md, "x, y, w, z".
+// Idea: the march's intervals and iterations are looked at one by one, and the turning function tells whether they are
+// as the figures show them.
 namespace rollfix::app {
 namespace {
 
 /// A roll of both fingers, and by how much their turns differ: (8) or (9).
 struct Rolls {
-  double a = 0;
-  double b = 0;
-  double turn = 0;
+  double a = 0;     // length of finger a's roll
+  double b = 0;     // of finger b's
+  double turn = 0;  // theta, radians
 };
 
 /// A part and rolls with the paper's theta_1 and theta_2 and its numbers of intervals:
@@ -26,6 +35,7 @@ constexpr const char* kPart = "spline,n=9,seed=7,wobble=0.2";
 constexpr Rolls kFirst{0.58, 0.94, -0.725248}, kSecond{1.01, 1.92, -1.99849}, kThird{1.25, 2.37, -1.966238};
 constexpr double kHolds = 1e-10;  // radians: what march and turning function may differ by
 
+/// Phi(s, s + length), radians.
 double phi(const Part& part, double s, double length) {
   return part.turning().angle(s + length) - part.turning().angle(s);
 }
@@ -53,6 +63,7 @@ struct Section3 {
   double phi_3(double t) const { return phi(part, t, first.b) + first.turn; }    // and theta_1
   double phi_4(double t) const { return phi(part, t, second.b) + second.turn; }  // and theta_2
 
+  /// All n m pairs of intervals, with their correspondence; none where the values of phi_1 and phi_3 do not meet.
   template <class Look>
   void each(const Look& look) {
     for (const march::MonotoneInterval& i : a.intervals) {
@@ -66,11 +77,13 @@ struct Figure5 {
   std::size_t drawn = 0, agree = 0, rectangles = 0, rejected = 0;
   double off = 0;  // of (8)
 
+  /// Counts the pairs of intervals that are as in the figure, and of them those whose x and z are as drawn.
   void take(Section3& section) {
     section.each([&](const auto& i, const auto& j, const auto& way) {
       ++rectangles;
       rejected += way ? 0 : 1;
       const double a = i.lo.s(), a_next = i.hi.s(), b = j.lo.s(), b_next = j.hi.s();
+      // The figure has phi_1 falling and phi_3 rising.
       if (!way || i.trend[0] > 0 || j.trend[0] < 0) return;
       if (section.phi_1(a_next) <= section.phi_3(b) || section.phi_1(a) <= section.phi_3(b_next)) return;
       ++drawn;
@@ -81,6 +94,7 @@ struct Figure5 {
     });
   }
 
+  /// As the program prints it.
   Claim claim() const {
     return {"Figure 5",
             "s from x = a_i+1 to y, t from w to z = b_j+1",
@@ -102,6 +116,7 @@ struct Iteration {
   double off = 0;       // (9) where it ends
 };
 
+/// One round at a time until it reaches its limit, or s or t leaves its interval.
 Iteration follow(const Section3& section, const march::Correspondence& way, march::StartsOfBoth at) {
   constexpr std::size_t kMostRounds = 20000;
   const double perimeter = section.part.perimeter();
@@ -112,6 +127,7 @@ Iteration follow(const Section3& section, const march::Correspondence& way, marc
     const march::Approach round = iterate(at, way, one_round);
     if (round.end == march::Approach::End::exit) break;
     ++seen.rounds;
+    // Each round moves s from x towards y, and t from w towards z.
     seen.forward =
         seen.forward && (at.a.s() - s) * (way.y() - way.x()) >= 0 && (at.b.s() - t) * (way.z() - way.w()) >= 0;
     seen.reached = round.end == march::Approach::End::limit;
@@ -126,6 +142,7 @@ struct Figure6 {
   bool forward = true;
   double off = 0;  // of (9)
 
+  /// Follows the iteration of each pair of intervals on which phi_2 and phi_4 both fall and t moves first.
   void take(Section3& section) {
     section.each([&](const auto&, const auto&, const auto& way) {
       if (!way || way->trend_2 > 0 || way->trend_4 > 0) return;
@@ -140,6 +157,7 @@ struct Figure6 {
     });
   }
 
+  /// As the program prints it.
   Claim claim() const {
     return {"Figure 6",
             "phi_4 + theta_2 - phi_2 gets small, or s or t exits",
@@ -156,6 +174,7 @@ Rolls planted(const Part& part, double s, double t, double a, double b) {
           phi(part, s * perimeter, a * perimeter) - phi(part, t * perimeter, b * perimeter)};
 }
 
+/// Three parts, two places of finger b each.
 void add_figures_5_and_6(std::vector<Claim>& claims) {
   Figure5 figure_5;
   Figure6 figure_6;
@@ -171,6 +190,7 @@ void add_figures_5_and_6(std::vector<Claim>& claims) {
   claims.push_back(figure_6.claim());
 }
 
+/// The pairs that satisfy (8) and (9), by either order of moves.
 march::PairResult pairs_by(const Part& part, march::MoveOrder order) {
   march::PairMarchOptions options;
   options.order = order;
@@ -178,12 +198,14 @@ march::PairResult pairs_by(const Part& part, march::MoveOrder order) {
       .pairs({kFirst.a, kFirst.b, kFirst.turn}, {kSecond.a, kSecond.b, kSecond.turn});
 }
 
+/// The numbers of intervals and of pairs, and what a third roll leaves.
 void add_figure_8(std::vector<Claim>& claims) {
   const Part part(gallery(kPart));
   constexpr std::size_t kIntervals = 16, kPairs = 15;  // the paper's
   constexpr double kFits = 1e-4;                       // radians: the readings are rounded
   const march::PairResult found = pairs_by(part, march::MoveOrder::towards_root);
   const march::PairResult printed = pairs_by(part, march::MoveOrder::printed);
+  // Pairs that the third roll fits as well.
   const auto left = std::count_if(found.pairs.begin(), found.pairs.end(), [&](const march::StartPair& pair) {
     return std::fabs(phi(part, pair.s, kThird.a) - phi(part, pair.t, kThird.b) - kThird.turn) < kFits;
   });
