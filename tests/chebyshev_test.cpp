@@ -2,9 +2,13 @@
 
 #include "part/chebyshev.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <vector>
 
 namespace chebyshev_test {
 namespace {
@@ -47,6 +51,24 @@ TEST(Chebyshev, integrates_from_the_start) {
   powers[2] = 6;
   const Powers integral = antiderivative(powers, 0.5);
   for (double x = -1; x <= 1; x += 1.0 / 64) EXPECT_NEAR(value(integral, x), 0.5 * (3 * x + 2 * x * x * x + 5), 1e-15);
+}
+
+std::vector<double> sign_changes_of(std::initializer_list<double> terms) {
+  Series powers = Series::Zero(static_cast<Eigen::Index>(terms.size()));
+  std::copy(terms.begin(), terms.end(), powers.data());
+  return sign_changes(powers);
+}
+
+/// Halving begins at 0, so that the root there is an end of both halves.
+TEST(Chebyshev, finds_a_sign_change_at_an_end_of_its_halves_whichever_way_it_goes) {
+  EXPECT_THAT(sign_changes_of({0, -1, 0, 0.9}), testing::ElementsAre(0));
+  EXPECT_THAT(sign_changes_of({0, 1, 0, -0.9}), testing::ElementsAre(0));
+  EXPECT_THAT(sign_changes_of({0, 0, 0, -1}), testing::ElementsAre(0));
+}
+
+TEST(Chebyshev, of_a_double_root_finds_no_sign_change) {
+  EXPECT_THAT(sign_changes_of({0, 0, 1}), testing::IsEmpty());
+  EXPECT_THAT(sign_changes_of({0, 0, -1, 0, 0.5}), testing::IsEmpty());
 }
 
 }  // namespace

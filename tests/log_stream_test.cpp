@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "log/log_rows.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
 #include "rollfix/error.hpp"
@@ -253,6 +254,18 @@ TEST(LogStream, after_a_dropped_connection_a_roll_goes_on_without_a_header) {
   EXPECT_EQ(stream.push("-1.1,0").kind, malformed) << "the end of a torn line";
   EXPECT_EQ(stream.push("1,-1,1.2").kind, malformed) << "sent twice";
   EXPECT_EQ(stream.push("8,-2,2.4").kind, sample);
+}
+
+/// The logs of a wheel without skin, of its pin.
+TEST(LogStream, after_a_dropped_connection_a_pins_header_may_come_again_with_another_clock) {
+  RowReader reader("pin", {}, true);
+  LogRow row;
+  for (const char* line : {"time,x,y", "5,1,2"}) reader.read(line, row);
+  reader.accept(row);
+  reader.resume();
+  EXPECT_EQ(reader.read("y,x,time", row), RowKind::none);
+  EXPECT_EQ(reader.read("2,1,0.5", row), RowKind::touching) << "the clock was set anew";
+  EXPECT_EQ(row.fingers[0].x, 1);
 }
 
 TEST(LogStream, a_header_in_between_is_a_line_that_cannot_be_read) {

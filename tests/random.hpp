@@ -4,7 +4,7 @@
 #include <random>
 
 /// How many cases a randomised test runs: `default_count`, or what the test program was told:
-/// --count=N for N cases in every test, --count=Nx for N times each test's default.
+/// --count=N for N cases in every test, --count=Fx for F times each test's default, at least one.
 int test_count(int default_count);
 
 /// The seed of a randomised test: fixed, or --seed=N. A failing test prints it.

@@ -192,6 +192,38 @@ TEST(Reach, of_a_gear_has_its_symmetry) {
 
 // ---- an oracle
 
+/// How deep the boundary is in a disk that touches at s, over many places of the boundary.
+double deepest_of_samples(const Part& part, double radius, double s) {
+  const double angle = part.tangent(s);
+  const Vec2 centre = part.point(s) + radius * Vec2(std::sin(angle), -std::cos(angle));
+  double deepest = 0;
+  for (int k = 0; k <= 2000; ++k) {
+    // Places crowd where the boundary bends, at the start of a spiral.
+    const Vec2 point = part.point(part.perimeter() * std::pow(k / 2000.0, 6));
+    deepest = std::max(deepest, radius - (point - centre).norm());
+  }
+  return deepest;
+}
+
+bool is_in(const Reach& reach, double s) {
+  return std::any_of(reach.arcs.begin(), reach.arcs.end(), [&](const Interval& arc) { return arc.contains(s); });
+}
+
+/// Its inner turns are one spiral of the part that turns by 4 pi, nearly all of it near the start.
+TEST(Reach, of_a_disk_beside_a_curve_that_bends_more_and_more_is_as_samples_say) {
+  const Part part(gallery("log-spiral,a=1,b=1,turns=2"));
+  for (const double radius : {3.0, 300.0, 1000.0, 30000.0}) {
+    const Reach reach = reach_of_disk(part, radius);
+    EXPECT_TRUE(reach.decided);
+    for (int k = 1; k < 300; ++k) {
+      const double s = part.perimeter() * std::pow(k / 300.0, 6);
+      const double depth = deepest_of_samples(part, radius, s);
+      if (depth > 0 && depth <= 10 * reach.slack) continue;
+      EXPECT_EQ(is_in(reach, s), depth == 0) << radius << ", s = " << s;
+    }
+  }
+}
+
 // ---- what is hit
 
 TEST(DeepestHit, of_a_disk_beside_a_concave_corner_is_the_other_leg) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <random>
@@ -110,6 +111,17 @@ TEST(SavedParts, keep_how_accurate_they_are) {
   const rollfix::Accuracy read = again(Part(outline)).outline().accuracy;
   EXPECT_TRUE(same_bits(read.length, outline.accuracy.length) && same_bits(read.turn, outline.accuracy.turn) &&
               same_bits(read.alike, outline.accuracy.alike) && same_bits(read.walk, outline.accuracy.walk));
+}
+
+/// Inches to millimetres: a length grows by the factor, radians per root of a length become less.
+TEST(SavedParts, are_as_accurate_in_another_unit) {
+  rollfix::Outline outline = rollfix::gallery("cam");
+  outline.accuracy = {0.002, 0.03, 0.7, 1e-5};
+  const rollfix::Accuracy metric = scaled(outline, 25.4, "mm").accuracy;
+  EXPECT_EQ(metric.length, 0.002);
+  EXPECT_EQ(metric.turn, 0.03);
+  EXPECT_DOUBLE_EQ(metric.alike, 0.7 * 25.4);
+  EXPECT_DOUBLE_EQ(std::pow(metric.walk, 2) * 25.4, 1e-10);
 }
 
 TEST(SavedParts, of_drawings_are_exact) {

@@ -188,6 +188,19 @@ TEST(Tracker, says_which_part_of_a_catalog_it_is_as_identify_says) {
   EXPECT_EQ(last.parts->verdict, asked.verdict);
   EXPECT_EQ(last.parts->parts.front().probability, asked.parts.front().probability);
   EXPECT_EQ(catalog->entry(last.parts->parts.front().weight.part).name, "cam");
+  EXPECT_EQ(last.verdict.text(), "unique");
+}
+
+TEST(Tracker, says_that_rows_contradict_the_noise_on_every_part_of_a_catalog) {
+  const auto catalog = std::make_shared<const rollfix::Catalog>(catalogs::of({"ellipse,a=2,b=1", "cam"}));
+  rollfix::Noise understated = watching::kNoise;
+  understated.contact /= 2;
+  understated.angle /= 2;
+  Tracker tracker = track(catalog, {watching::kFinger}, understated);
+  told(tracker, noisy(2, 3, 60));
+  const Tracked last = tracker.finish().front();
+  EXPECT_TRUE(last.parts->parts.front().answer.verdict.fits_badly);
+  EXPECT_TRUE(last.verdict.fits_badly);
 }
 
 TEST(Tracker, ends_a_roll_where_contact_is_lost_and_begins_another) {

@@ -298,7 +298,7 @@ std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& a
     // From the first angle on, by |dTheta/du| over the whole segment: finite at rest as well.
     const Ball here =
         one.from.angle + up_to(one.to.u - one.from.u) * boundary.turning(one.from.curve, hull(one.from.u, one.to.u));
-    const bool goes_on = k > 0 && boundary.jump(all[k - 1].from.curve).is_above(-kConcave);
+    const bool goes_on = k > 0 && !boundary.is_concave(all[k - 1].from.curve);
     if (goes_on) {
       sets.back() = hull(sets.back(), here);
     } else {

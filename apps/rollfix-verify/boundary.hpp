@@ -58,8 +58,10 @@ class Boundary {
   bool is_at_rest(long curve) const { return at_rest_[index(curve)]; }
   bool turns(long curve) const { return !abs(jump(curve)).is_below(kSmooth); }
   bool is_corner(long curve) const { return turns(curve) || is_at_rest(curve); }
+  /// Whether it is a corner to the concave side for sure: then a finger has none of the angles in between.
+  bool is_concave(long curve) const { return jump(curve).is_below(-kConcave); }
   /// Whether a finger may pivot there.
-  bool pivots(long curve) const { return is_at_rest(curve) || (turns(curve) && !jump(curve).is_below(-kConcave)); }
+  bool pivots(long curve) const { return is_at_rest(curve) || (turns(curve) && !is_concave(curve)); }
 
   /// By how much an arc length may be told otherwise: a lap less, as it is, a lap more.
   const std::vector<double>& laps() const { return laps_; }

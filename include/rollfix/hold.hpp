@@ -196,7 +196,7 @@ struct HoldAnswer {
   bool is_contradicted() const { return (fit && fit->is_bad()) || prior_p < TouchFit::kLeastP; }
   std::size_t comparisons = 0;
 
-  /// "unique", "ambiguous (2)", "unique, but the rows contradict the stated noise", ...
+  /// "unique", "ambiguous (2)", "unique, but the measurements contradict the stated noise", ...
   std::string verdict_text() const;
 };
 

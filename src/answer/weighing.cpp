@@ -27,6 +27,8 @@ constexpr double kLeastCentre = 2e-4;
 constexpr std::size_t kRowsOfGlance = 96;
 // What was said of a log is not held to be less likely than exp(-this).
 constexpr double kMostDoubt = 30;
+// Where fingers can have none of the places, what is left is taken as this: its logarithm is finite.
+constexpr double kNoProbability = 1e-300;
 
 /// What a finger measured at its first contact, where the log has it.
 std::optional<MeasuredContact> first_felt(const Problem& problem, std::size_t which) {
@@ -165,8 +167,9 @@ void conclude(Belief& belief, Answer& answer, bool is_reweighed, bool fits_badly
     double total = 0;
     for (const Placement& placement : answer.placements) total += placement.probability;
     for (Placement& placement : answer.placements) placement.probability /= total;
-    answer.weighing->rest = std::min(1.0, answer.weighing->rest / std::max(total, 1e-300));
-    answer.weighing->evidence.volume += std::log(total);
+    const double left = std::max(total, kNoProbability);
+    answer.weighing->rest = std::min(1.0, answer.weighing->rest / left);
+    answer.weighing->evidence.volume += std::log(left);
     answer.verdict = belief.verdict_on(answer.placements);
   } else {
     answer.verdict = belief.verdict();

@@ -27,6 +27,16 @@ constexpr std::size_t kLeastSamples = 3;
 // A change of a part's probability by less is no news: it changes no decision.
 constexpr double kOtherProbability = 0.1;
 
+/// A Verdict is of one part's places: unique means one part and one place on it.
+Verdict verdict_of(const Identified& found) {
+  Verdict verdict;
+  verdict.fits_badly = !found.parts.empty() && found.parts.front().answer.verdict.fits_badly;
+  if (found.status == Status::incomplete) return verdict;  // undecided
+  const bool is_one = found.parts.size() == 1 && found.parts.front().answer.placements.size() == 1;
+  verdict.name = found.verdict == "none" ? Verdict::inconsistent : is_one ? Verdict::unique : Verdict::ambiguous;
+  return verdict;
+}
+
 /// Which parts remain: those that were ruled out are not looked at again before the roll is over.
 class OnCatalog final : public Meaning {
  public:
@@ -70,9 +80,7 @@ class OnCatalog final : public Meaning {
       answer.parts = std::make_shared<const Identified>(std::move(nothing));
     }
     const Identified& found = *answer.parts;
-    // A Verdict is of one part's places: unique means one part and one place on it.
-    const bool is_one = found.parts.size() == 1 && found.parts.front().answer.placements.size() == 1;
-    answer.verdict = {found.verdict == "none" ? Verdict::inconsistent : is_one ? Verdict::unique : Verdict::ambiguous};
+    answer.verdict = verdict_of(found);
     answer.rest = found.rest;
   }
 

@@ -158,7 +158,7 @@ class PatchSearch {
       return;
     }
     if (one_lap && fit_.slack_of_two(other_, index, values_) > limits_.tolerance) return;
-    if ((one_lap && fits_all_along(index)) || node.width() <= kResolution * limits_.perimeter) {
+    if ((one_lap && fits_all_along(index)) || node.width() <= finest(node)) {
       take(node);
     } else if (budget_ == 0) {
       findings_.unresolved.push_back(box_of(node));
@@ -177,6 +177,11 @@ class PatchSearch {
     };
     return other_.pivot_at(other_.node(index)) && fits_at(&PlaneCurve::Component::first) &&
            fits_at(&PlaneCurve::Component::last);
+  }
+
+  /// Nodes are halved down to this width: a share of the perimeter, or of a radian where the finger pivots.
+  double finest(const PlaneCurve::Node& node) const {
+    return kResolution * (other_.pivot_at(node) ? 1 : limits_.perimeter);
   }
 
   /// The patched finger stands at the patch's corner; the other one is anywhere on the node, or at its own corner.

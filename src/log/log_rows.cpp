@@ -111,19 +111,16 @@ RowKind RowReader::read(std::string_view line, LogRow& row) {
 bool RowReader::take_header() {
   const bool may_come = columns_.empty() || header_may_come_;
   if (!may_come) return false;
-  // A wheel's log goes on without a header.
-  if (of_pin_ && !columns_.empty() && is_data(table_row_)) return false;
-  if (of_pin_) {
-    columns_ = {pin_columns_of(table_row_, name_, options_)};
-    return true;
-  }
-  if (is_data(table_row_)) {
+  // A wheel's log begins with a header, and goes on without one.
+  const bool may_be_bare = !of_pin_ || !columns_.empty();
+  if (may_be_bare && is_data(table_row_)) {
     // Numbers first: two columns without a header. The row itself is data.
     if (columns_.empty()) columns_ = {bare_columns(table_row_, name_, options_)};
     return false;
   }
   // A header that comes again may have its columns in another order, but has to be of the same kind of log.
-  std::vector<Columns> found = rollfix::columns_of(table_row_, name_, options_);
+  std::vector<Columns> found = of_pin_ ? std::vector{pin_columns_of(table_row_, name_, options_)}
+                                       : rollfix::columns_of(table_row_, name_, options_);
   if (!columns_.empty() && (found.size() != columns_.size() || found.front().kind != kind())) {
     throw InputError(fmt::format("{}: the header '{}' is of another kind of log than the one before it",
                                  where(name_, table_row_.line), shown(table_row_.text)));

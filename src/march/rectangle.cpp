@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,7 @@ double distance_of_residuals(const StartsOfBoth& at) {
   // parts add up. The determinant is 0 at a double pair: the estimate is then infinite.
   const double one = at.a.slope(0), two = at.a.slope(1), three = at.b.slope(0), four = at.b.slope(1);
   const double determinant = std::fabs(three * two - one * four);
+  if (determinant == 0) return std::numeric_limits<double>::infinity();
   const double eight = std::fabs(at.excess(0)) + at.problem->rounding;
   const double nine = std::fabs(at.excess(1)) + at.problem->rounding;
   const double s = std::fabs(four) * eight + std::fabs(three) * nine;

@@ -304,6 +304,8 @@ Outline scaled(const Outline& outline, double factor, const std::string& unit) {
   if (factor == 1) return result;
   result.gallery.clear();
   result.gap *= factor;
+  result.accuracy.alike *= factor;
+  result.accuracy.walk /= std::sqrt(factor);
   for (Curve& curve : result.curves) curve = scaled(curve, factor);
   return result;
 }

@@ -181,11 +181,14 @@ void search(const Series& powers, double lo, double hi, std::vector<double>& fou
   }
   const double before = value(powers, lo);
   const double after = value(powers, hi);
-  if ((before < 0) == (after < 0) || before == 0) return;  // a zero at lo was the end of the interval before
+  if (before == 0) return;  // a zero at lo is the end of the interval before
   if (after == 0) {
-    if (hi < 1) found.push_back(hi);
+    // A double root touches 0, and the signs on both sides of it are the same.
+    const bool changes = monotone || (before < 0) != (value(powers, hi + half) < 0);
+    if (changes && hi < 1) found.push_back(hi);
     return;
   }
+  if ((before < 0) == (after < 0)) return;
   // The signs at lo and hi differ: a bracket, closed to the last bits.
   std::uintmax_t rounds = 100;
   const auto bracket = boost::math::tools::toms748_solve([&](double x) { return value(powers, x); }, lo, hi, before,

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <vector>
 
+#include "arc_height.hpp"
 #include "outline/box.hpp"
 #include "part_data.hpp"
 #include "rollfix/pulse.hpp"
@@ -10,7 +11,7 @@
 // Notation:
 //   arc             one of equal lengths of a spiral on one panel; they turn by `kCrossingLeafTurn` at most on average
 //   turn            how far the tangent turns on it in all; of a node the corners between its arcs included
-//   bulge           how far an arc can be from its chord: by the isosceles triangle with the same turn
+//   bulge           how far an arc can be from its chord: arc_height.hpp
 //   box             around the chord, wider by the bulge
 // Follows the idea of D. H. Ballard, "Strip trees: a hierarchical representation for curves" (1981).
 // Idea: a stretch whose tangent turns by less than half a turn in all can't meet itself (`kSimpleTurn`), nor can two
@@ -42,12 +43,10 @@ struct Arc {
   /// `turns`: |Theta(to) - Theta(from)|, radians.
   Arc(double from, double to, const Vec2& starts, const Vec2& ends, double turns)
       : lo(from), hi(to), start(starts), end(ends), turn(turns) {
-    // No further from its chord than the isosceles triangle with the same turn: half the chord times the tangent of
-    // half the turn.
-    bulge = 0.5 * (end - start).norm() * std::tan(0.5 * std::min(turn, 2.0)) * (1 + 1e-9);
+    bulge = arc_height((end - start).norm(), hi - lo, turn);
   }
 
-  /// Holds every point of an arc that turns by 2 rad at most.
+  /// Holds every point of the arc.
   Box box() const {
     const Vec2 margin = Vec2::Constant(bulge);
     return {Vec2(start.cwiseMin(end) - margin), Vec2(start.cwiseMax(end) + margin)};

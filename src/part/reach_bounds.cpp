@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arc_height.hpp"
 #include "cursor.hpp"
 #include "reach_search.hpp"
 
@@ -14,16 +15,15 @@
 //   kappa, k        curvature of the boundary and of the finger; d(sin phi)/dx = kappa, and of the disk's rim it is -k
 //   e               by how much kappa falls short of -k: `excess_`; j, x_j: turn and place of a concave joint: `jumps_`
 // Follows docs/reach.md, "How it is decided", its tree (1) and the safe stretch around a contact (3).
-// Idea: a stretch that turns by little in one direction lies no further from its chord than the isosceles triangle with
-// the same turn. Long runs are bounded by boxes, short stretches are halved when somebody asks for it. Around a
-// contact, while kappa >= -k, the boundary stays above the rim, and the finger can't enter it. Else it comes below by
-// no more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope: while that is within the slack, and the
-// slopes make sense, the stretch is safe.
+// Idea: a stretch that turns in one direction lies near its chord (arc_height.hpp). Long runs are bounded by boxes,
+// short stretches are halved when somebody asks for it. Around a contact, while kappa >= -k, the boundary stays above
+// the rim, and the finger can't enter it. Else it comes below by no more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3
+// of the steepest slope: while that is within the slack, and the slopes make sense, the stretch is safe.
 namespace rollfix::part {
 namespace {
 
-// A spiral is cut into so many equal lengths that they turn by no more than this on average, radians: then they are
-// close to their chords.
+// A spiral is cut into so many equal lengths that they turn by no more than this on average, radians: then most of them
+// are close to their chords.
 constexpr double kLeafTurn = 0.4;
 // Positions are rounded: this share of the perimeter.
 constexpr double kPlaceRounding = 2e-15;
@@ -63,7 +63,6 @@ BoundaryTree::BoundaryTree(const Part& part) : part_(part) {
   diagonal_ = (most - least).norm();
 }
 
-/// An arc lies no further from its chord than the isosceles triangle with the same turn.
 std::int32_t BoundaryTree::add_single(std::int32_t spiral, double lo, double hi, const Vec2& start, const Vec2& end,
                                       const Turning& at_lo, const Turning& at_hi) {
   Node node;
@@ -72,9 +71,7 @@ std::int32_t BoundaryTree::add_single(std::int32_t spiral, double lo, double hi,
   node.start = start;
   node.end = end;
   const double turn = std::abs(at_hi.angle - at_lo.angle);
-  // Half the chord times the tangent of half the turn, which is a bound for turns below pi, and what positions are
-  // rounded by.
-  node.deviation = 0.5 * (end - start).norm() * std::tan(0.5 * turn) * (1 + 1e-9) + kPlaceRounding * part_.perimeter();
+  node.deviation = arc_height((end - start).norm(), hi - lo, turn) + kPlaceRounding * part_.perimeter();
   node.at_lo = at_lo;
   node.at_hi = at_hi;
   node.spiral = spiral;
@@ -292,6 +289,9 @@ Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, 
     const double one = turning.on_spiral(spiral, stance.range.lo).angle;
     const double two = turning.on_spiral(spiral, stance.range.hi).angle;
     angles = {std::min(one, two), std::max(one, two)};
+    // A stance that turns by more is itself not within the angles that make a stretch safe. Equal lengths of a spiral
+    // may turn by much.
+    if (angles.width() > kMostOutward) return {stance.range.hi, stance.range.lo};
   }
   return {SafeWalk(tree, curvature, slack, stance, angles, -1).end(),
           SafeWalk(tree, curvature, slack, stance, angles, 1).end()};

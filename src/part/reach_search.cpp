@@ -27,7 +27,8 @@ namespace {
 constexpr double kDoubt = 1e-4;
 // Rounding of F, a share of the boundary's size.
 constexpr double kRounding = 1e-14;
-// A stance turns by no more than this to begin with, radians, and none is shorter than this share of the perimeter.
+// A stance turns by no more than this to begin with on average, radians, and none is shorter than this share of the
+// perimeter.
 constexpr double kStanceTurn = 0.4;
 constexpr double kShortestStance = 1e-12;
 // One on several spirals turns by no more than this: its ends see each other as a safe stretch has it.

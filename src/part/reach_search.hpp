@@ -111,7 +111,8 @@ struct ChordDeepness {
 ChordDeepness deepness_on_chord(const BoundaryTree::Node& node, const Vec2& point, const Vec2& normal,
                                 double curvature);
 
-/// The stretch around a stance that a finger in it can't enter by more than the slack, in arc length unwrapped.
+/// The stretch around a stance that a finger in it can't enter by more than the slack, in arc length unwrapped; empty
+/// where the stance itself is not safe.
 Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, const Stance& stance);
 
 /// Decides for all stances of a finger whether any point of the boundary is deeper in it than the slack.

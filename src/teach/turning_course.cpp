@@ -84,8 +84,8 @@ std::vector<Stop> with_whole_pivots(const std::vector<Stop>& stops, double limit
     Stop& pivot = whole.back();
     const double before = pivot.is_pivot ? std::abs(pivot.last - pivot.first) : 0;
     const double after = stop.is_pivot ? std::abs(stop.last - stop.first) : 0;
-    // The corner's place: the mean of both, weighted by how far each of them turns.
-    pivot.s = (before * pivot.s + after * stop.s) / (before + after);
+    // The corner's place: the mean of both, weighted by how far each of them turns; of a pivot forth and back its own.
+    if (before + after > 0) pivot.s = (before * pivot.s + after * stop.s) / (before + after);
     pivot.last = stop.last;
     pivot.is_pivot = true;
   }

@@ -243,12 +243,12 @@ Vec2 PartDistance::middle_of_hole() {
 
 /// Distance changes by no more than one goes.
 /// In a cell of the grid that is the distance at the cell's middle, more or less how far the point is from there; cells
-/// are filled when they are first asked for. Beyond the grid: from the way to its square to two diagonals more.
+/// are filled when they are first asked for. Beyond the grid: from the way to its square to the square's diagonal more.
 Interval PartDistance::between(const Vec2& point) {
   const Vec2 far = ((point - corner_).cwiseQuotient(cell_) / kCells - Vec2::Constant(0.5)).cwiseAbs();
   if (far.maxCoeff() >= 0.5) {
     const double out = (far - Vec2::Constant(0.5)).cwiseMax(0).norm() * cell_.x() * kCells;
-    const Interval beyond{out, out + 2 * diagonal()};
+    const Interval beyond{out, out + cell_.norm() * kCells};
     return is_hole_ ? Interval{-beyond.hi, -beyond.lo} : beyond;
   }
   const Vec2 number = ((point - corner_).cwiseQuotient(cell_)).array().floor();

@@ -332,8 +332,9 @@ TouchTable parse_touches(std::string_view text, const std::string& name, const T
     reader->require_whole(row);
     const MeasuredTouch touch = reader->read(row);
     const bool has_contact = reader->has_contact(row);
-    // The way from a row without contact to the next row, contact or not; the way back from a touch is no path.
-    if (last && !last_has_contact) table.clear.push_back({*last, touch.at});
+    // The way from a row without contact to the next row, contact or not; the way back from a touch is no path, nor is
+    // one to a touch whose place is unknown.
+    if (last && !last_has_contact && touch.has_place()) table.clear.push_back({*last, touch.at});
     last = touch.at;
     last_has_contact = has_contact;
     if (!has_contact) {

@@ -159,6 +159,14 @@ TEST(CliTouchReading, ClearRowsAreFreeSpace) {
   EXPECT_THAT(run("locate gallery:cam --reading 1,1 --clear 1,2,3,4").err, HasSubstr("--clear is about touches"));
 }
 
+TEST(CliTouchReading, NoPathLeadsToATouchWhosePlaceIsUnknown) {
+  const std::string table =
+      "x,y,normal [deg],contact\n60,86,,0\n,,12,1\n180,20,,0\n200,20,,0\n124.014,51.172,,1\n180.292,54.717,,1\n";
+  const Ran ran = located("t.csv", table, kBall + ",angle=1deg --clear rows");
+  EXPECT_NE(ran.code, 2) << ran.err;
+  EXPECT_EQ(ran.json()["clear"], Json({{180, 20, 200, 20}, {200, 20, 124.014, 51.172}}));
+}
+
 TEST(CliTouchReading, ABatchHasTouchesAsWell) {
   const Folder folder;
   folder.write("b.jsonl",

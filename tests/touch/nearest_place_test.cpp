@@ -64,4 +64,17 @@ TEST(NearestPlace, OfATouchWithItsNormalIsAsFarAsTheClosedFormSays) {
   }
 }
 
+/// A circle is one spiral, so that the tree's first disc is wider than the part.
+TEST(NearestPlace, FarFromThePartIsBetweenBothBounds) {
+  const rollfix::Part circle(rollfix::gallery("circle,r=1"));
+  rollfix::touch::PartDistance distance(circle);
+  std::mt19937_64 generator = test_generator(2);
+  for (int k = 0; k < test_count(2000); ++k) {
+    const Vec2 point(uniform(generator, -9, 9), uniform(generator, -9, 9));
+    const rollfix::Interval between = distance.between(point);
+    EXPECT_LE(between.lo, point.norm() - 1 + 1e-9) << point.transpose();
+    EXPECT_GE(between.hi, point.norm() - 1 - 1e-9) << point.transpose();
+  }
+}
+
 }  // namespace nearest_place_test

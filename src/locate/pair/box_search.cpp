@@ -347,8 +347,8 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
 /// tolerance around it.
 bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular) {
   const auto [p, q] = regular.rows;
-  const Eigen::Array2d width(std::max(sides.a.width(), limits_.same_place),
-                             std::max(sides.b.width(), limits_.same_place));
+  const Eigen::Array2d same_place(sides.a.same_place(limits_), sides.b.same_place(limits_));
+  const Eigen::Array2d width = Eigen::Array2d(sides.a.width(), sides.b.width()).max(same_place);
   const Vec2 lo(sides.a.lo(), sides.b.lo());
   const Vec2 hi(sides.a.hi(), sides.b.hi());
   // From x the zero is at most (1 - off)^-1 |Y f(x)| away, since |x* - x + Y f| <= off |x* - x| entry by entry.
@@ -377,7 +377,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     if (round == kMostBoxRounds) break;
     const bool full = round < kMostBoxRounds / 2;  // Newton's own step, then the one that contracts for sure
     const Vec2 step = full ? Vec2(jacobian.inverse() * f) : middle_step;
-    if ((step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all()) break;
+    if ((step.array().abs() <= kBoxRootStep * width + 1e-3 * same_place).all()) break;
     const double size = (step.array().abs() / width).maxCoeff();
     if (size < kSmallBoxStep && size > 0.5 * last) break;  // nothing but rounding moves it any more
     last = size;
@@ -394,8 +394,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   Polygon extent = set_about(sides, limits, regular.rows, on_a, on_b);
   // Of more than two equations the others must vanish as well.
   const bool exact = largest_residual(sides, limits_, on_a, on_b) <= kRootTurn;
-  const Vec2 edge = reached(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
-                    Vec2(sides.a.same_place(limits_), sides.b.same_place(limits_));
+  const Vec2 edge = reached(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) + same_place.matrix();
   const bool inside = ((at + edge).array() >= lo.array() && (at - edge).array() <= hi.array()).all();
   if (extent.empty() && !(inside && exact)) return true;
   if (extent.empty()) extent.push_back(at);

@@ -213,7 +213,7 @@ LineSearch::Place LineSearch::at_edge(const Stretch& stretch, double edge) const
   for (int round = 0; round < kMostLineRounds; ++round) {
     x = at.free.x;
     const double off = at.bound.x - edge;
-    if (std::abs(off) <= 1e-3 * limits_.same_place) break;
+    if (std::abs(off) <= 1e-3 * bound().same_place(limits_)) break;
     ((off > 0) == rises ? hi : lo) = x;
     double next = x - off / direction(at);
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
