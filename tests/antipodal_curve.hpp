@@ -178,7 +178,7 @@ inline std::vector<rollfix::locating::PairCluster> pairs(const Part& part) {
   limits.facing = true;
   rollfix::locating::PairFindings findings;
   std::size_t budget = 200'000;
-  rollfix::locating::BoxSearch(p, q, limits, budget, findings).run();
+  rollfix::locating::PairBoxSearch(p, q, limits, budget, findings).run();
   if (!findings.unresolved.empty()) throw std::runtime_error("some boxes could not be decided");
   return rollfix::locating::join_pieces(part, findings, limits.same_place);
 }

@@ -3,6 +3,7 @@
 
 #include "laws.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -55,6 +56,17 @@ RC_GTEST_PROP(Laws, scaling_the_part_scales_the_places, ()) {
   Map map;
   map.factor = factor;
   expect_same(asked, scaled, map);
+}
+
+/// Angles of pivots have no unit: they are halved as far in millimetres as in kilometres.
+// Law (3)
+TEST(Laws, pivots_of_two_fingers_are_decided_in_every_unit) {
+  for (const double side : {1.0, 1e-7, 1e7}) {
+    const Part hexagon(gallery(fmt::format("polygon,n=6,r={}", side)));
+    const Search search = locate(hexagon, {{2 * side, 2 * side, -0.9}, {side, side, 0}});
+    EXPECT_EQ(search.status, Status::complete) << side;
+    EXPECT_EQ(search.placements.size(), 1U) << side;
+  }
 }
 
 // Law (4)

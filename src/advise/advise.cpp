@@ -23,8 +23,8 @@ namespace rollfix {
 namespace {
 
 using advising::Comparison;
-using advising::Travel;
 using advising::Way;
+using advising::WayToTell;
 
 // Lengths that are looked at, forward and back, and on each of two fingers' ways.
 constexpr std::size_t kSteps = 400;
@@ -94,7 +94,7 @@ struct Trial {
       if (is_better(gain, most)) most = gain;
     }
     // Only after both comparisons are done: it reads after which travel each place is told.
-    to_go = std::make_unique<Travel>(hypotheses, back, forward);
+    to_go = std::make_unique<WayToTell>(hypotheses, back, forward);
     for (ExpectedGain& gain : gains) gain.travel = to_go->after(gain.length);
   }
 
@@ -111,7 +111,7 @@ struct Trial {
   std::vector<ExpectedGain> gains;
   std::size_t here = 0;  // index of the roll of length 0
   ExpectedGain most;     // the one that tells most
-  std::unique_ptr<Travel> to_go;
+  std::unique_ptr<WayToTell> to_go;
 };
 
 /// A roll on a way, and what it costs: infinite where the way tells nothing.

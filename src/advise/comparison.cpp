@@ -291,7 +291,7 @@ ExpectedGain Comparison::expected(double x) const {
 }
 
 /// The lists of all places that have to be told from each true one, with the travel that tells them.
-Travel::Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward)
+WayToTell::WayToTell(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward)
     : hypotheses_(hypotheses), back_(back), forward_(forward) {
   const std::size_t n = hypotheses.size();
   others_.resize(n);
@@ -305,12 +305,12 @@ Travel::Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& 
   }
 }
 
-bool Travel::tells_any() const {
+bool WayToTell::tells_any() const {
   return std::any_of(others_.begin(), others_.end(), [](const auto& others) { return !others.empty(); });
 }
 
 /// The mean over the true place, first on and then back, or the reverse: whoever decides does not know which it is.
-double Travel::after(double x) const {
+double WayToTell::after(double x) const {
   double on = 0;
   double back = 0;
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
@@ -321,7 +321,7 @@ double Travel::after(double x) const {
   return std::abs(x) + std::min(on, back);
 }
 
-double Travel::open_after(double x) const {
+double WayToTell::open_after(double x) const {
   double open = 0;
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     if (is_open_after(i, x)) open += hypotheses_[i].hypothesis.probability;
@@ -329,10 +329,10 @@ double Travel::open_after(double x) const {
   return open;
 }
 
-bool Travel::matters(std::size_t i, std::size_t j) const { return i != j && !are_one_place(i, j) && counts(j); }
+bool WayToTell::matters(std::size_t i, std::size_t j) const { return i != j && !are_one_place(i, j) && counts(j); }
 
 /// For sure, if some travel tells it so; else in part; else it can't be told on this way and is left out.
-void Travel::add_other(std::size_t i, std::size_t j) {
+void WayToTell::add_other(std::size_t i, std::size_t j) {
   if (!matters(i, j)) return;
   for (std::size_t how = 0; how < 2; ++how) {
     const Other other{forward_.told(i, j)[how], back_.told(i, j)[how]};
@@ -343,7 +343,7 @@ void Travel::add_other(std::size_t i, std::size_t j) {
 }
 
 /// Of one placement, which need not get narrower than that.
-bool Travel::are_one_place(std::size_t i, std::size_t j) const {
+bool WayToTell::are_one_place(std::size_t i, std::size_t j) const {
   const Part& part = *hypotheses_[i].part;
   const Hypothesis& one = hypotheses_[i].hypothesis;
   const Hypothesis& other = hypotheses_[j].hypothesis;
@@ -356,14 +356,14 @@ bool Travel::are_one_place(std::size_t i, std::size_t j) const {
 }
 
 /// On the side that was rolled: what the other side would tell is still open.
-bool Travel::is_open_after(std::size_t i, double x) const {
+bool WayToTell::is_open_after(std::size_t i, double x) const {
   return std::any_of(others_[i].begin(), others_[i].end(),
                      [&](const Other& other) { return x == 0 || (x > 0 ? other.forward : other.back) > std::abs(x); });
 }
 
 /// If i is the true one, the travel that is left: as far on as it takes and back only for what that alone tells, and
 /// the reverse.
-std::array<double, 2> Travel::left_after(std::size_t i, double x) const {
+std::array<double, 2> WayToTell::left_after(std::size_t i, double x) const {
   const double rolled = std::abs(x);
   std::vector<Other> left;  // seen from here: those not told yet, on the same way and on the other one
   Other only{0, 0};         // ... those that one way alone tells
@@ -388,7 +388,7 @@ std::array<double, 2> Travel::left_after(std::size_t i, double x) const {
 
 /// To both ends, from a place that far ahead of where both are counted from.
 /// Whichever end comes first is passed twice: the nearer one.
-double Travel::shorter_way(const Other& ends, double rolled) {
+double WayToTell::shorter_way(const Other& ends, double rolled) {
   // Both ends are counted from where the roll began; the finger is `rolled` ahead of it, and has that much back to go.
   const double on = std::max(ends.forward - rolled, 0.0);
   const double back = ends.back > 0 ? ends.back + rolled : 0;

@@ -72,9 +72,9 @@ double entropy(const std::vector<double>& weights);
 double shortest_perimeter(const std::vector<PartHypothesis>& hypotheses);
 
 /// What is still to be travelled after a roll, for the place where the contact is to be told from the others.
-class Travel {
+class WayToTell {
  public:
-  Travel(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward);
+  WayToTell(const std::vector<PartHypothesis>& hypotheses, const Comparison& back, const Comparison& forward);
 
   /// Whether any place is told from another on this way, for sure or in part.
   bool tells_any() const;

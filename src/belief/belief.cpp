@@ -253,7 +253,7 @@ Verdict Belief::verdict_on(const std::vector<Mode>& modes) { return state_->verd
 Verdict Belief::verdict_on(const std::vector<Placement>& placements) { return state_->verdict_on(placements); }
 
 PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<MeasuredContact>& measured) {
-  const std::vector<Piece> pieces = state_->posterior->pieces(mode, modes()[mode]);
+  const std::vector<MassPiece> pieces = state_->posterior->pieces(mode, modes()[mode]);
   return pose_spread_of(state_->part, pieces, measured, state_->options.noise);
 }
 

@@ -256,7 +256,7 @@ Felt FeltTurning::at(double s) const {
   const Knot& hi = knots_[k + 1];
   const double h = hi.s - lo.s;
   const double x = base - lo.s;
-  const Cubic cubic = Cubic::through(h, hi.felt.angle - lo.felt.angle, lo.felt.slope, hi.felt.slope);
+  const HermiteCubic cubic = HermiteCubic::through(h, hi.felt.angle - lo.felt.angle, lo.felt.slope, hi.felt.slope);
   return {lo.felt.angle + cubic.at(x) + lift, cubic.slope(x),
           lo.felt.variance + (hi.felt.variance - lo.felt.variance) * x / h,
           lo.felt.pivot + (hi.felt.pivot - lo.felt.pivot) * x / h};

@@ -13,7 +13,7 @@
 //   c_k             sqrt(2 / n) sum of e_i cos(pi k (i + 1/2) / n), for k = 0 by sqrt(1 / n): `component`
 //   m               `kComponents`, of few innovations a quarter as many: `most`
 //   slow            c_0^2 + ... + c_(m-1)^2, over what all innovations are larger by: a chi-square of m degrees
-//   s, T            a contact's place on the part and the tangent's angle there: Piece, with its share of a mode
+//   s, T            a contact's place on the part and the tangent's angle there: MassPiece, with its share of a mode
 //   q, beta         where a contact was felt in the world, and u + psi: MeasuredContact
 //   (X, phi)        the part's pose: beta = phi + T + pi / 2, and q = X + R(phi) p(s); of two fingers the middle of
 //                   both
@@ -96,7 +96,7 @@ constexpr double kAngleStep = 1e-6;
 /// the same places in both frames: of two fingers the middle of what they say.
 /// `chord`: of two fingers, how much the direction from one contact to the other counts for the heading, the normals
 /// counting for the rest.
-Pose pose_with(const Part& part, const Piece& piece, const PerFinger<MeasuredContact>& felt, double chord) {
+Pose pose_with(const Part& part, const MassPiece& piece, const PerFinger<MeasuredContact>& felt, double chord) {
   const auto heading_by = [&](std::size_t finger) {
     return felt[finger].facing - 0.5 * std::numbers::pi - piece.tangent[finger];
   };
@@ -132,7 +132,7 @@ MeasuredContact moved(const MeasuredContact& contact, double along, double angle
 }
 
 /// Where the contacts were, as far as all the samples tell.
-PerFinger<MeasuredContact> told(const PerFinger<MeasuredContact>& felt, const Piece& piece) {
+PerFinger<MeasuredContact> told(const PerFinger<MeasuredContact>& felt, const MassPiece& piece) {
   PerFinger<MeasuredContact> contacts = felt;
   if (felt.size() == 1) return contacts;
   for (std::size_t finger = 0; finger < felt.size(); ++finger) {
@@ -161,12 +161,12 @@ Eigen::Matrix3d sensors_of_one(const MeasuredContact& felt, const Pose& mean, co
 }
 
 /// The spread over poses that each have their own: the mean covariance, and the covariance of the means.
-PoseSpread spread_over(const std::vector<Piece>& pieces) {
+PoseSpread spread_over(const std::vector<MassPiece>& pieces) {
   const Pose reference = pieces.front().pose->mean;
   double total = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const Piece& piece : pieces) {
+  for (const MassPiece& piece : pieces) {
     const Eigen::Vector3d by = off(piece.pose->mean, reference);
     total += piece.share;
     sum += piece.share * by;
@@ -200,7 +200,7 @@ double chord_share(const PerFinger<MeasuredContact>& felt, const Noise& noise) {
 }
 
 /// By differences: one number at a time is off by a small step.
-PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<MeasuredContact>& felt, double chord) {
+PoseSlopes slopes_of_two(const Part& part, const MassPiece& at, const PerFinger<MeasuredContact>& felt, double chord) {
   const double step = kSlidStep * part.perimeter();
   const Pose reference = pose_with(part, at, told(felt, at), chord);
   PoseSlopes slopes;
@@ -222,8 +222,8 @@ PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<Meas
 
 }  // namespace
 
-PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<MeasuredContact>& felt,
-                          const Noise& noise) {
+PoseSpread pose_spread_of(const Part& part, const std::vector<MassPiece>& pieces,
+                          const PerFinger<MeasuredContact>& felt, const Noise& noise) {
   if (pieces.empty()) return {};
   // The rows themselves tell the pose: of one finger, in a log with centres.
   if (pieces.front().pose) return spread_over(pieces);
@@ -235,7 +235,7 @@ PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, co
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   // Mean and covariance about the first piece's pose. Each piece adds what the first contacts' slide leaves open.
-  for (const Piece& piece : pieces) {
+  for (const MassPiece& piece : pieces) {
     const Eigen::Vector3d by = off(pose_with(part, piece, told(felt, piece), chord), reference);
     total += piece.share;
     sum += piece.share * by;

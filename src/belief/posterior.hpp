@@ -198,7 +198,7 @@ inline Mixture mixture_of(double share, double stray, double peak, double square
 }
 
 /// A little of the posterior: first contacts, and the share of the probability that they stand for.
-struct Piece {
+struct MassPiece {
   PerFinger<double> s;        // unwrapped
   PerFinger<double> tangent;  // radians, unwrapped
   double share = 0;
@@ -239,7 +239,7 @@ class Posterior {
   /// Of f of these readings, at these modes, the largest.
   virtual double variance_of_miss(const std::vector<Reading>& readings, const std::vector<Mode>& modes) const = 0;
   /// Of a mode. The first is the one that poses are compared with; its share may be 0.
-  virtual std::vector<Piece> pieces(std::size_t index, const Mode& mode) const = 0;
+  virtual std::vector<MassPiece> pieces(std::size_t index, const Mode& mode) const = 0;
   /// See Belief, but for Fit::widened.
   virtual std::vector<PosePiece> pose_pieces() const { return {}; }
   /// See Belief::density. `modes`: of settle().
@@ -261,11 +261,11 @@ struct Remaining {
 Verdict verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places);
 
 /// The pieces of a mode, added up along one finger's boundary.
-void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
+void add_density(const std::vector<MassPiece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
                  Density& density);
 
 /// See Belief::pose_spread. `pieces`: of the mode.
-PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<MeasuredContact>& felt,
-                          const Noise& noise);
+PoseSpread pose_spread_of(const Part& part, const std::vector<MassPiece>& pieces,
+                          const PerFinger<MeasuredContact>& felt, const Noise& noise);
 
 }  // namespace rollfix::belief

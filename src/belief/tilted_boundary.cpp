@@ -130,7 +130,7 @@ void TiltedArc::join(std::size_t begin, double w) {
   Cell& cut = cells_[after];
   // The cubic about its new start: value, slope and second derivative as there.
   const double x = w - cut.w;
-  const Cubic& cubic = cut.cubic;
+  const HermiteCubic& cubic = cut.cubic;
   cut = {w, cut.s + cubic.at(x), {cubic.slope(x), cubic.b + 3 * x * cubic.c, cubic.c}};
   cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(before),
                cells_.begin() + static_cast<std::ptrdiff_t>(after));
@@ -302,7 +302,7 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
     const double h = task.hi.w - task.lo.w;
     // No length: nothing to add.
     if (h <= 0) continue;
-    const Cubic cubic = Cubic::through(h, task.hi.s - task.lo.s, task.lo.slope, task.hi.slope);
+    const HermiteCubic cubic = HermiteCubic::through(h, task.hi.s - task.lo.s, task.lo.slope, task.hi.slope);
     const double x = 0.5 * h;
     const double guess = task.lo.s + cubic.at(x);
     const double s = place_of(turning, spiral, tilt_, task.lo.w + x, task.lo.s, task.hi.s);

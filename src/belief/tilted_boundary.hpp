@@ -11,13 +11,13 @@
 namespace rollfix::belief {
 
 /// Hermite's: from 0 at x = 0, with the slope a there.
-struct Cubic {
+struct HermiteCubic {
   double a = 0;  // slope at x = 0
   double b = 0;  // half the second derivative there
   double c = 0;  // a sixth of the third
 
   /// Through a rise over a step, with these slopes at its ends.
-  static Cubic through(double step, double rise, double slope_lo, double slope_hi) {
+  static HermiteCubic through(double step, double rise, double slope_lo, double slope_hi) {
     const double mean = rise / step;
     return {slope_lo, (3 * mean - 2 * slope_lo - slope_hi) / step, (slope_lo + slope_hi - 2 * mean) / (step * step)};
   }
@@ -85,7 +85,7 @@ class TiltedArc {
   struct Cell {
     double w = 0;
     double s = 0;
-    Cubic cubic;
+    HermiteCubic cubic;
     double kink_below = 0;  // the nearest places where the slope jumps, from the cell's start: at most 0, and ...
     double kink_above = 0;  // ... above it
     double end = 0;         // where the next one starts; beyond all w of the last

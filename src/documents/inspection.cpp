@@ -12,12 +12,12 @@ namespace rollfix {
 namespace {
 
 /// A column: its value of a sample, and whether that is a length.
-struct Column {
+struct FactColumn {
   const char* name;
   double (*value)(const BoundarySample&);
   bool is_length;
 };
-constexpr std::array<Column, 5> kColumns = {
+constexpr std::array<FactColumn, 5> kColumns = {
     {{"s", [](const BoundarySample& at) { return at.s; }, true},
      {"x", [](const BoundarySample& at) { return at.point.x(); }, true},
      {"y", [](const BoundarySample& at) { return at.point.y(); }, true},
@@ -73,14 +73,14 @@ Json reach_json(const Inspection& inspection) {
 
 std::string outline_table(const Part& part) {
   std::string text;
-  for (const Column& column : kColumns) {
+  for (const FactColumn& column : kColumns) {
     const std::string unit = column.is_length && !part.unit().empty() ? fmt::format(" [{}]", part.unit()) : "";
     text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.name, unit);
   }
   text += '\n';
   for (const BoundarySample& sample : samples_of(part)) {
     const char* separator = "";
-    for (const Column& column : kColumns) {
+    for (const FactColumn& column : kColumns) {
       fmt::format_to(std::back_inserter(text), "{}{}", separator, column.value(sample));
       separator = ",";
     }
@@ -92,7 +92,7 @@ std::string outline_table(const Part& part) {
 Json outline_json(const Part& part) {
   Json lists = Json::object();
   const std::vector<BoundarySample> samples = samples_of(part);
-  for (const Column& column : kColumns) {
+  for (const FactColumn& column : kColumns) {
     Json list = Json::array();
     for (const BoundarySample& sample : samples) list.push_back(json_number(column.value(sample)));
     lists[column.name] = std::move(list);

@@ -55,8 +55,8 @@ std::size_t most_misses(const HeldRows& rows, std::size_t instants) {
 }  // namespace
 
 /// Copies what the rows searched with say, so that a test at an instant reads from one place.
-BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
-                     const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget)
+HoldBoxSearch::HoldBoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
+                             const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget)
     : pins_(rows, instants, wheels), most_boxes_(rows.has_noise ? kMostNoisyBoxes : kMostBoxes), budget_(budget) {
   for (std::size_t k = 0; k < rows.fingers(); ++k) {
     trees_.emplace_back(part, rows, k, instants, reach[k]);
@@ -75,7 +75,7 @@ BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vect
 }
 
 /// An arm is |C - q|: both are measured, in the world, whatever the first contacts are.
-void BoxSearch::add_levers(std::size_t instants) {
+void HoldBoxSearch::add_levers(std::size_t instants) {
   std::vector<std::vector<Lever>> levers(instants);
   for (std::size_t t = 0; t < instants; ++t) {
     for (std::size_t k = 0; k < pins_.wheels(); ++k) {
@@ -86,7 +86,7 @@ void BoxSearch::add_levers(std::size_t instants) {
 }
 
 /// Those that suit all normals and all chords between contacts.
-HeadingArc BoxSearch::headings(const Box& box, std::size_t t) {
+HeadingArc HoldBoxSearch::headings(const Box& box, std::size_t t) {
   const Instant& instant = instants_[t];
   HeadingArc heading;
   for (std::size_t k = 0; k < trees_.size(); ++k) {
@@ -116,14 +116,14 @@ HeadingArc BoxSearch::headings(const Box& box, std::size_t t) {
 }
 
 /// The heading is unwrapped as the tangents are: an encoder counts turns.
-HeldFrom BoxSearch::from(const Box& box, std::size_t finger, std::size_t t) {
+HeldFrom HoldBoxSearch::from(const Box& box, std::size_t finger, std::size_t t) {
   const ArcAt& arc = trees_[finger].at(box[finger], t);
   const double place = trees_[finger].slack(t).place;
   return {arc.middle, instants_[t].at[finger], arc.radius + place, place, instants_[t].tangent[finger] - arc.angle};
 }
 
 /// Seen from each finger that has a place; from the first one encoders are looked at as well.
-bool BoxSearch::may_touch(const Box& box, std::size_t t, const HeadingArc& heading, std::vector<SpinSet>& spins) {
+bool HoldBoxSearch::may_touch(const Box& box, std::size_t t, const HeadingArc& heading, std::vector<SpinSet>& spins) {
   for (std::size_t wheel = 0; wheel < pins_.wheels(); ++wheel) {
     bool is_first = true;
     for (std::size_t finger = 0; finger < trees_.size(); ++finger) {
@@ -142,7 +142,7 @@ bool BoxSearch::may_touch(const Box& box, std::size_t t, const HeadingArc& headi
   return true;
 }
 
-std::vector<Interval> BoxSearch::wheel_arcs(const Box& box, std::size_t wheel) {
+std::vector<Interval> HoldBoxSearch::wheel_arcs(const Box& box, std::size_t wheel) {
   // Row 0 comes first in the order of instants.
   const HeadingArc heading = headings(box, 0);
   std::vector<Interval> arcs;
@@ -157,14 +157,14 @@ std::vector<Interval> BoxSearch::wheel_arcs(const Box& box, std::size_t wheel) {
 }
 
 /// Normals and chords first: they are cheap, and leave fewer headings to look at wheels with.
-bool BoxSearch::may_fit(const Box& box, std::size_t t, std::vector<SpinSet>& spins) {
+bool HoldBoxSearch::may_fit(const Box& box, std::size_t t, std::vector<SpinSet>& spins) {
   ++comparisons_;
   const HeadingArc heading = headings(box, t);
   return !heading.is_empty() && may_touch(box, t, heading, spins);
 }
 
 /// Ends at the first instant that can't fit, or with outliers at one more than may fail.
-bool BoxSearch::may_fit(const Box& box) {
+bool HoldBoxSearch::may_fit(const Box& box) {
   beat();
   for (std::size_t k = 0; k < trees_.size(); ++k) {
     // By reach and by an open boundary's ends: no pose is needed.
@@ -179,7 +179,7 @@ bool BoxSearch::may_fit(const Box& box) {
   return true;
 }
 
-Boxes BoxSearch::search(double leaf) {
+Boxes HoldBoxSearch::search(double leaf) {
   Box all{};
   for (std::size_t k = 0; k < trees_.size(); ++k) all[k] = trees_[k].root();
   return search({all}, leaf);
@@ -187,7 +187,7 @@ Boxes BoxSearch::search(double leaf) {
 
 /// Each turn of the outer loop halves every box that is left once. At its start `from` and `found.fit` together hold
 /// all first contacts that fit.
-Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
+Boxes HoldBoxSearch::search(std::vector<Box> from, double leaf) {
   Boxes found;
   while (!from.empty()) {
     std::vector<Box> next;
@@ -233,7 +233,7 @@ Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
 }
 
 /// A sweep along the first finger's arcs, with union-find: n log n, and the pairs whose first arcs overlap.
-std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>& boxes, const Boundary& boundary) {
+std::vector<std::vector<Box>> sets_of(HoldBoxSearch& search, const std::vector<Box>& boxes, const Boundary& boundary) {
   const double grain = kSameArc * boundary.perimeter;
   std::vector<std::pair<double, std::size_t>> order;  // by the first finger's arcs
   for (std::size_t b = 0; b < boxes.size(); ++b) order.emplace_back(search.tree(0).arc(boxes[b][0]).lo, b);
@@ -315,13 +315,14 @@ Interval hull_of(std::vector<Interval> arcs, const Boundary& boundary) {
 
 }  // namespace
 
-Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary) {
+Interval extent_of(HoldBoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary) {
   std::vector<Interval> arcs;
   for (const Box& box : boxes) arcs.push_back(search.tree(finger).arc(box[finger]));
   return hull_of(std::move(arcs), boundary);
 }
 
-Interval wheel_extent(BoxSearch& search, const std::vector<Box>& boxes, std::size_t wheel, const Boundary& boundary) {
+Interval wheel_extent(HoldBoxSearch& search, const std::vector<Box>& boxes, std::size_t wheel,
+                      const Boundary& boundary) {
   std::vector<Interval> arcs;
   for (const Box& box : boxes) {
     const std::vector<Interval> own = search.wheel_arcs(box, wheel);

@@ -27,15 +27,15 @@ struct Boxes {
 /// heading of the part suits all normals, all chords between contacts and all wheels. What is tested follows from
 /// "there are first contacts, and a pose at each instant, with every residual within its slack": nothing that fits is
 /// lost.
-class BoxSearch {
+class HoldBoxSearch {
  public:
   /// Boxes end where discs are no larger than this share of the slack, and tangents turn by no more than that.
   static constexpr double kLeaf = 0.5;
 
   /// `instants`: rows to search with, in the order in which they tell most. `reach`: of each finger, nullptr:
   /// anywhere. `budget`: comparisons, after which all that is left is undecided.
-  BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
-            const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget);
+  HoldBoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
+                const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget);
 
   /// Of all first contacts. Smaller `leaf`: smaller boxes, and more of them.
   Boxes search(double leaf = kLeaf);
@@ -81,11 +81,12 @@ class BoxSearch {
 
 /// Boxes that hang together: two do if the arcs of every finger have a place in common. Sets are apart: no chain of
 /// boxes leads from one to another.
-std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>& boxes, const Boundary& boundary);
+std::vector<std::vector<Box>> sets_of(HoldBoxSearch& search, const std::vector<Box>& boxes, const Boundary& boundary);
 
 /// The shortest arc of one finger that holds all of its arcs in some boxes; lo in [0, P), hi may exceed P.
-Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary);
+Interval extent_of(HoldBoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary);
 /// The same of where a wheel touches at the first instant.
-Interval wheel_extent(BoxSearch& search, const std::vector<Box>& boxes, std::size_t wheel, const Boundary& boundary);
+Interval wheel_extent(HoldBoxSearch& search, const std::vector<Box>& boxes, std::size_t wheel,
+                      const Boundary& boundary);
 
 }  // namespace rollfix::hold

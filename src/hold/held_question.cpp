@@ -152,7 +152,7 @@ std::vector<FoundSet> HeldQuestion::sets(const std::vector<Box>& boxes) {
 /// Each round asks every set that is left for a witness. At its start `boxes.fit`, the sets in `result`, and
 /// `undecided` hold all first contacts that fit.
 Witnessed witnessed(HeldQuestion& question, HoldFit& fit, Boxes boxes, const FingersApart* apart) {
-  double leaf = BoxSearch::kLeaf;
+  double leaf = HoldBoxSearch::kLeaf;
   Witnessed result{{}, {}, std::move(boxes.undecided)};
   std::vector<Box>& undecided = result.undecided;
   for (int round = 0; round <= kHoldRefinements && !boxes.fit.empty(); ++round) {

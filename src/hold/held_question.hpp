@@ -43,7 +43,7 @@ class HeldQuestion {
   const HeldRows& rows() const { return rows_; }
   const HeldRows& searched() const { return searched_; }  // in the order of time
   const Reach* reach(std::size_t finger) const { return reach_.each[finger]; }
-  BoxSearch& search() { return search_; }
+  HoldBoxSearch& search() { return search_; }
 
   /// Boxes that hang together.
   std::vector<FoundSet> sets(const std::vector<Box>& boxes);
@@ -54,7 +54,7 @@ class HeldQuestion {
   HeldRows searched_;   // those searched with
   HeldPart part_;
   ReachOfFingers reach_;
-  BoxSearch search_;
+  HoldBoxSearch search_;
 };
 
 /// A set of first contacts, with some in it that fit.

@@ -34,7 +34,7 @@ constexpr double kWideHold = 0.1;  // of the perimeter: a place that is known no
 /// One run: optima of all sets, the posterior's modes about them, and placements of the probable ones.
 class HoldWeighing {
  public:
-  HoldWeighing(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched, BoxSearch& search,
+  HoldWeighing(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched, HoldBoxSearch& search,
                const WheelPaths& wheels, Care care, HoldAnswer& answer)
       : problem_(problem),
         at_a_glance_(care == Care::glance),
@@ -311,14 +311,14 @@ class HoldWeighing {
   Boundary boundary_;
   const HeldRows& rows_;
   const HeldRows& searched_;
-  BoxSearch& search_;
+  HoldBoxSearch& search_;
   const WheelPaths& wheels_;
   HoldAnswer& answer_;
 };
 
 }  // namespace
 
-std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std::size_t look, std::size_t looks) {
+std::vector<double> middle_of_box(HoldBoxSearch& search, const FoundSet& found, std::size_t look, std::size_t looks) {
   // In the middle of its share of the boxes.
   const Box& box = found.boxes[(2 * look + 1) * found.boxes.size() / (2 * looks)];
   std::vector<double> start;
@@ -327,7 +327,7 @@ std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std:
 }
 
 void weigh(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched,
-           const std::vector<FoundSet>& found, BoxSearch& search, const WheelPaths& wheels, Care care,
+           const std::vector<FoundSet>& found, HoldBoxSearch& search, const WheelPaths& wheels, Care care,
            HoldAnswer& answer) {
   HoldWeighing(problem, rows, searched, search, wheels, care, answer).run(found);
 }

@@ -65,14 +65,14 @@ struct FoundSet {
 };
 
 /// The first contacts in the middle of one of a set's boxes, `look` of `looks` through it.
-std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std::size_t look, std::size_t looks);
+std::vector<double> middle_of_box(HoldBoxSearch& search, const FoundSet& found, std::size_t look, std::size_t looks);
 
 /// How much is looked at: at a glance the likeliest place, by few starts, that may be missed.
 enum class Care { full, glance };
 
 /// With noise: the posterior over these sets, into the answer. `searched`: of the rows those that were searched with.
 void weigh(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched,
-           const std::vector<FoundSet>& found, BoxSearch& search, const WheelPaths& wheels, Care care,
+           const std::vector<FoundSet>& found, HoldBoxSearch& search, const WheelPaths& wheels, Care care,
            HoldAnswer& answer);
 
 /// A state as the answer has it: places at the first and the last instant, poses, residuals; extents of its set.

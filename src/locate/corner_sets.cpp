@@ -75,7 +75,7 @@ PerFinger<double> ends_of(const PerFinger<double>& at, const Reading& reading) {
 }
 
 /// The least slack of all intervals, and where it is reached.
-struct Fit {
+struct CornerFit {
   double residual = std::numeric_limits<double>::infinity();
   Interval start;  // the tangents at the start that have it
 };
@@ -83,14 +83,14 @@ struct Fit {
 /// The least residual r for which some w of the start's own set is within r of every wanted interval. On a line,
 /// intervals meet when each two of them do. So r is the worst gap: a whole one to the start's set, which does not give
 /// way, half of one between two wanted intervals, which both do.
-Fit fit(const Interval& start, const Intervals& wanted) {
+CornerFit fit(const Interval& start, const Intervals& wanted) {
   double most_lo = -std::numeric_limits<double>::infinity();
   double least_hi = std::numeric_limits<double>::infinity();
   for (const Interval& one : wanted) {
     most_lo = std::max(most_lo, one.lo);
     least_hi = std::min(least_hi, one.hi);
   }
-  Fit best;
+  CornerFit best;
   best.residual = std::max({0.0, most_lo - start.hi, start.lo - least_hi, 0.5 * (most_lo - least_hi)});
   best.start.lo = std::max(start.lo, most_lo - best.residual);
   best.start.hi = std::min(start.hi, least_hi + best.residual);
@@ -100,7 +100,7 @@ Fit fit(const Interval& start, const Intervals& wanted) {
 
 /// The least largest |f_k| over all choices of w and of one-sided ends; with w the start's tangent, f_k = Theta(s +
 /// L_k) - theta_k - w, of two fingers w = Theta(s) - Theta(t).
-Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
+CornerFit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
   boost::container::small_vector<Intervals, 2> combinations(1);
   for (const Reading& reading : question.readings) {
@@ -123,9 +123,9 @@ Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
     }
     combinations = std::move(longer);
   }
-  Fit best;
+  CornerFit best;
   const auto consider = [&](const Interval& start, const Intervals& wanted) {
-    const Fit one = fit(start, wanted);
+    const CornerFit one = fit(start, wanted);
     if (one.residual < best.residual) best = one;
   };
   for (const Interval& start : tangents_at(question, at)) {

@@ -41,7 +41,7 @@ struct SpiralPair {
 
 /// An interval of first contacts on which |f| is within the tolerance. Neighbours that touch are joined later
 /// (sets_of_one.cpp).
-struct Piece {
+struct StartPiece {
   double lo = 0;
   double hi = 0;
   bool exact = false;   // f = 0 on all of it
@@ -62,7 +62,7 @@ struct Root {
 // Answers are few: that many need no allocation.
 inline constexpr std::size_t kFewAnswers = 12;
 
-using Pieces = boost::container::small_vector<Piece, kFewAnswers>;
+using Pieces = boost::container::small_vector<StartPiece, kFewAnswers>;
 using FoundRoots = boost::container::small_vector<Root, kFewAnswers>;
 
 /// What one reading leaves of a stretch of boundary.

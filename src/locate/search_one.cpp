@@ -191,7 +191,7 @@ void search_stretches(const ContactEquations& question, const Interval& range, c
 /// does, a further one cuts again and again. Continua stay apart from what is beside them.
 void join_touching(Pieces& pieces) {
   // Pieces are in rising order; [0, last] are joined already.
-  const auto is_plain = [](const Piece& piece) { return !piece.exact && !piece.corner; };
+  const auto is_plain = [](const StartPiece& piece) { return !piece.exact && !piece.corner; };
   std::size_t last = 0;
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     if (is_plain(pieces[last]) && is_plain(pieces[k]) && pieces[k].lo <= pieces[last].hi) {
@@ -212,7 +212,7 @@ void narrow(const ContactEquations& question, const Reading& further, double tol
   Pieces pieces = std::exchange(kept.pieces, {});
   join_touching(pieces);
   sweep.ask(further);
-  for (const Piece& piece : pieces) {
+  for (const StartPiece& piece : pieces) {
     if (!kept.unresolved.empty()) {
       // Given up: what is left of the earlier readings is listed instead.
       kept.unresolved.push_back({piece.lo, piece.hi});

@@ -47,7 +47,7 @@ Search search_two(const ContactEquations& question, const LocateOptions& options
   std::size_t budget = options.budget;
   // All pairs (s, t), pivots of one contact at a time included; then first contacts at which several contacts of a
   // finger pivot at once.
-  BoxSearch(a, b, limits, budget, findings).run();
+  PairBoxSearch(a, b, limits, budget, findings).run();
   search_patches(a, b, true, limits, budget, findings);
   search_patches(b, a, false, limits, budget, findings);
   add_corner_pairs(question, a, b, limits, findings);

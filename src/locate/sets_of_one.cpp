@@ -12,7 +12,7 @@
 
 // Notation:
 //   f(s)            Theta(s + L) - Theta(s) - theta, eqs. (4), (5): ResidualSample; of several readings the largest |f|
-//   piece, root     what the search left, and zeros of f in it: Piece, Root
+//   piece, root     what the search left, and zeros of f in it: StartPiece, Root
 //   cluster         pieces that touch, across s = 0 as well: one placement
 //   P               the perimeter: `period_`
 // Follows docs/search.md, "Once per reading", 7, and "MULTIPLE SOLUTIONS".
@@ -47,9 +47,9 @@ using Clusters = boost::container::small_vector<Cluster, kFewAnswers>;
 Clusters clusters_of(const Part& part, Pieces& pieces) {
   Clusters clusters;
   const double same_place = kLengthAccuracy * part.perimeter();
-  const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
+  const auto earlier = [](const StartPiece& one, const StartPiece& two) { return one.lo < two.lo; };
   if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
-  for (const Piece& piece : pieces) {
+  for (const StartPiece& piece : pieces) {
     // Pieces within rounding of each other are one connected set.
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
       clusters.push_back({piece.lo, piece.hi, piece.exact, piece.corner});

@@ -13,7 +13,7 @@
 //   q_k             points, in order; closed ones cyclically
 //   turn            of the chords at q_k, radians: ChordTurns::at; by the length that it takes: `curvature`
 //   nose            a point at which a curve that is sampled sparsely turns by a corner's angle, as its neighbours do
-//   arm             the line of least squares through the points within `reach` of one, before it or after it: Arm
+//   arm             the line of least squares through the points within `reach` of one, before it or after it: ScanArm
 // Follows docs/files.md, "Points and scans" and "Airfoils".
 // Idea: of exact points a corner is where chords turn by `kCornerAngle` and the neighbours' turns don't lead up to it;
 // of noisy ones where the two arms do, by more than at any other point within reach.
@@ -96,7 +96,7 @@ namespace {
 constexpr std::size_t kArmPoints = 48;
 
 /// The points on one side of a point.
-struct Arm {
+struct ScanArm {
   Vec2 direction = Vec2::Zero();  // away from the point
   std::size_t count = 0;          // how many points it reaches over
 };
@@ -115,8 +115,8 @@ class ScanCorners {
     std::pair<std::size_t, std::size_t> last = {1, 1};  // neighbours' arms are about as long
     // First the turn at every point, between the lines fitted to its two arms; then the largest of each neighbourhood.
     for (std::size_t i = 0; i < count; ++i) {
-      const Arm before = arm(i, false, last.first);
-      const Arm after = arm(i, true, last.second);
+      const ScanArm before = arm(i, false, last.first);
+      const ScanArm after = arm(i, true, last.second);
       last = {before.count, after.count};
       reaches_[i] = last;
       const bool has_both = before.count > 0 && after.count > 0;
@@ -145,13 +145,13 @@ class ScanCorners {
 
   /// The arm of point i on one side: the points up to `reach_` away along the scan, and at least the neighbour.
   /// `expected`: how many points it has, probably; of many only every stride-th is taken.
-  Arm arm(std::size_t i, bool forward, std::size_t expected) const {
+  ScanArm arm(std::size_t i, bool forward, std::size_t expected) const {
     const std::size_t stride = std::max<std::size_t>(1, expected / kArmPoints);
     // Sums of the points as seen from point i, and of their products: enough for the line of least squares.
     Vec2 sum = Vec2::Zero();
     Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
     double taken = 1;  // the point itself
-    Arm result;
+    ScanArm result;
     for (std::size_t steps = stride;; steps += stride) {
       std::size_t j = 0;
       if (!step(i, forward, steps, j)) break;

@@ -166,7 +166,7 @@ Curve resting_bezier(Numbers& numbers) {
 }
 
 /// A kind of record, and what makes a curve of it.
-struct Kind {
+struct CurveKind {
   std::string_view name;  // in the record
   std::size_t numbers;    // that it takes, or ...
   bool or_a_multiple;     // ... a multiple of it
@@ -174,7 +174,7 @@ struct Kind {
 };
 
 // The names are part of the format of saved parts: a name that changed would not be read any more.
-constexpr std::array<Kind, 11> kKinds = {{
+constexpr std::array<CurveKind, 11> kKinds = {{
     {"line", 4, false, line},
     {"arc", 5, false, arc},
     {"elliptic-arc", 8, false, elliptic_arc},
@@ -206,7 +206,7 @@ Curve curve_from(const CurveRecord& record) {
   }
   // By the name in full: "bezier" is not taken for the start of "bezier-from-rest".
   const auto* const kind =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& one) { return one.name == record.kind; });
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const CurveKind& one) { return one.name == record.kind; });
   if (kind == kKinds.end()) throw InputError(fmt::format("the curve kind '{}' is not known", record.kind));
   const std::size_t count = record.numbers.size();
   // Control points are as many as the record has numbers for.

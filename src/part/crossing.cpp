@@ -32,7 +32,7 @@ constexpr double kMeeting = 1e-10;
 constexpr std::size_t kMostComparisons = 10'000'000;
 
 /// A stretch of one spiral and one panel between arc lengths lo and hi: Theta is monotone on it.
-struct Arc {
+struct LeafArc {
   double lo = 0;
   double hi = 0;
   Vec2 start;  // points of its ends
@@ -41,7 +41,7 @@ struct Arc {
   double bulge = 0;
 
   /// `turns`: |Theta(to) - Theta(from)|, radians.
-  Arc(double from, double to, const Vec2& starts, const Vec2& ends, double turns)
+  LeafArc(double from, double to, const Vec2& starts, const Vec2& ends, double turns)
       : lo(from), hi(to), start(starts), end(ends), turn(turns) {
     bulge = arc_height((end - start).norm(), hi - lo, turn);
   }
@@ -89,7 +89,7 @@ class CrossingSearch {
   };
 
   std::size_t arcs() const { return joints_.size() - 1; }
-  Arc arc(std::size_t k) const {
+  LeafArc arc(std::size_t k) const {
     const Joint& from = joints_[k];
     const Joint& to = joints_[k + 1];
     return {from.s, to.s, from.point, to.point, from.turn};
@@ -208,7 +208,7 @@ class CrossingSearch {
   }
 
   /// Halves two arcs until they are apart, or too short to tell from one point.
-  void meet(const Arc& one, const Arc& two, const JointTurn& joint) {
+  void meet(const LeafArc& one, const LeafArc& two, const JointTurn& joint) {
     if (found_ || !one.box().intersects(two.box())) return;
     const double turn = one.turn + two.turn;
     if (joint.after_first >= 0 && turn + joint.after_first < kSimpleTurn) return;
@@ -216,7 +216,7 @@ class CrossingSearch {
     // Arcs that neither test excludes are halved, the longer one first, down to this length.
     const double shortest = kMeeting * part_.perimeter();
     const bool split_one = one.hi - one.lo >= two.hi - two.lo;
-    const Arc& longer = split_one ? one : two;
+    const LeafArc& longer = split_one ? one : two;
     // Not apart when both are that short: they count as meeting.
     const bool gives_up = ++comparisons_ > kMostComparisons;
     if (gives_up || longer.hi - longer.lo <= shortest) {
@@ -224,8 +224,8 @@ class CrossingSearch {
       return;
     }
     const double middle = 0.5 * (longer.lo + longer.hi);
-    const Arc head = part_of(longer, longer.lo, middle);
-    const Arc tail = part_of(longer, middle, longer.hi);
+    const LeafArc head = part_of(longer, longer.lo, middle);
+    const LeafArc tail = part_of(longer, middle, longer.hi);
     // A half is a neighbour of the other arc only on its own side: the head is no longer next to what follows the first
     // arc, the tail no longer next to what comes before it.
     if (split_one) {
@@ -238,7 +238,7 @@ class CrossingSearch {
   }
 
   /// A stretch of an arc; the ends that it shares with the whole keep their points.
-  Arc part_of(const Arc& whole, double lo, double hi) const {
+  LeafArc part_of(const LeafArc& whole, double lo, double hi) const {
     return {lo, hi, lo == whole.lo ? whole.start : part_.point(lo), hi == whole.hi ? whole.end : part_.point(hi),
             turn(lo, hi)};
   }

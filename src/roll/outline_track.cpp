@@ -126,10 +126,8 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
   const Interval range = cell_range(piece);
   piece.stretch.s = {std::max(piece.stretch.s.lo, range.lo), std::min(piece.stretch.s.hi, range.hi)};
   piece.stretch.whole = piece.stretch.s;
-  const Interval whole = piece.stretch.s;
   // From the start outwards, to one side and then to the other: each cut moves its own end only.
   cut(piece, first.s, -1);
-  piece.stretch.s.hi = whole.hi;
   cut(piece, first.s, 1);
   ahead_.push_back(piece);
   if (piece.is_tight_hi && piece.stretch.s.hi <= first.s) refuse(0, 1);

@@ -190,10 +190,11 @@ std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, doubl
 }
 
 /// Boxes of poses, halved until one holds a witness or all are refuted.
-class BoxSearch {
+class WitnessSearch {
  public:
   /// Only poses in `extent` count. `budget`: boxes.
-  BoxSearch(PoseFit& fit, const PoseExtent& extent, std::size_t budget) : fit_(fit), extent_(extent), budget_(budget) {
+  WitnessSearch(PoseFit& fit, const PoseExtent& extent, std::size_t budget)
+      : fit_(fit), extent_(extent), budget_(budget) {
     finest_ = fit.touches().front().place_most;
     for (const Measured& touch : fit.touches()) finest_ = std::min(finest_, touch.place_most);
     finest_ *= kFinest;
@@ -320,7 +321,7 @@ PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair
 /// Whether some pose with its first two contacts on one of the cells fits all touches. In a single pose touches have
 /// nothing to do with each other, so halving boxes of poses decides it, where pairs of places leave near misses.
 BoxesFound search_boxes(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, std::size_t budget) {
-  return BoxSearch(fit, extent_of(fit, cells, pair, {0, 0, cells.front().heading.middle}), budget)
+  return WitnessSearch(fit, extent_of(fit, cells, pair, {0, 0, cells.front().heading.middle}), budget)
       .search(box_around(fit, cells, pair));
 }
 

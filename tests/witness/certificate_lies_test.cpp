@@ -20,7 +20,7 @@ TEST(CertificateLies, of_one_finger_are_none_of_them_proved) {
 
 TEST(CertificateLies, of_two_fingers_are_none_of_them_proved) {
   std::mt19937_64 generator = test_generator(2);
-  const std::vector<int> told = certificate_lies::tell_of_two(test_count(3), generator);
+  const std::vector<int> told = certificate_lies::tell_of_two(full_count(3), generator);
   EXPECT_GT(std::count_if(told.begin(), told.end(), [](int times) { return times > 0; }), 25);
 }
 

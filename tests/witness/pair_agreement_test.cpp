@@ -103,7 +103,7 @@ TEST_P(PairAgreement, a_double_root_is_held_and_its_placement_starts_where_the_r
   if (!part.closed()) GTEST_SKIP() << "moving a length would leave an open part";
   auto generator = test_generator(45);
   int seen = 0;
-  for (int k = 0; k < test_count(60); ++k) {
+  for (int k = 0; k < full_count(60); ++k) {
     const std::optional<Case> drawn = pair_cases::double_root_case(part, generator);
     if (!drawn) continue;
     const Search search = locate(part, drawn->readings);

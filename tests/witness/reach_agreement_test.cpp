@@ -49,7 +49,7 @@ TEST(Reach, agrees_with_a_dense_polyline_on_random_splines) {
   constexpr double kSlack = 1e-4;
   int blocked = 0;
   int free = 0;
-  for (int round = 0; round < test_count(20); ++round) {
+  for (int round = 0; round < full_count(20); ++round) {
     const Part part = random_spline(generator);
     const double r = std::pow(10.0, 2 * unit(generator) - 1.5);
     const Reach reach = reach_of_disk(part, r, {.slack = kSlack});

@@ -42,7 +42,7 @@ TEST(TouchCertificateWitness, random_questions_are_proved) {
 
 TEST(TouchCertificateWitness, no_lie_is_proved) {
   std::mt19937_64 generator = test_generator(8000);
-  const std::vector<int> told = touch_liar::tell(test_count(4), {0, 1, 2, 3, 4, 5, 6}, generator,
+  const std::vector<int> told = touch_liar::tell(full_count(4), {0, 1, 2, 3, 4, 5, 6}, generator,
                                                  [](const Json& lie, const std::string& name, int question) {
                                                    EXPECT_FALSE(is_proved(lie)) << question << ": " << name;
                                                  });

@@ -265,7 +265,7 @@ struct ModeQuestion {
 std::pmr::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
 
 /// The cells that hold the mass, in order, with the part's pose where the rows tell it.
-std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary);
+std::vector<MassPiece> pieces_of(const Grid& grid, const TiltedBoundary& boundary);
 
 /// The same with the poses at their ends. REQUIRES that the finger's first contact is known.
 std::vector<PosePiece> pose_pieces_of(const Grid& grid, const TiltedBoundary& boundary);

@@ -309,8 +309,8 @@ std::optional<PoseSpread> pose_of(const Grid& grid, const GridCell& cell) {
 
 }  // namespace
 
-std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
-  std::vector<Piece> pieces;
+std::vector<MassPiece> pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
+  std::vector<MassPiece> pieces;
   for (const GridCell& cell : grid.cells()) {
     // Far out there are many cells with less.
     if (!(cell.share > kLeastShare)) continue;
@@ -338,16 +338,16 @@ std::vector<PosePiece> pose_pieces_of(const Grid& grid, const TiltedBoundary& bo
 namespace {
 
 /// Evenly spread mass.
-struct Stretch {
+struct EvenMass {
   double density;
   double share;
   double length;
 };
 
 /// The densest first.
-void sort_by_density(std::pmr::vector<Stretch>& stretches) {
+void sort_by_density(std::pmr::vector<EvenMass>& stretches) {
   std::sort(stretches.begin(), stretches.end(),
-            [](const Stretch& a, const Stretch& b) { return a.density > b.density; });
+            [](const EvenMass& a, const EvenMass& b) { return a.density > b.density; });
 }
 
 /// By s, from where it is least to where it is largest: an exponential.
@@ -360,7 +360,7 @@ Interval densities_in(const GridCell& cell) {
 }
 
 /// The density changes within a cell: its parts are looked at by themselves.
-void add_parts(const GridCell& cell, std::pmr::vector<Stretch>& stretches) {
+void add_parts(const GridCell& cell, std::pmr::vector<EvenMass>& stretches) {
   const double enough = std::clamp(cell.share / kLeastPart, 1.0, kMostParts);
   const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, enough)));
   double before = 0;
@@ -375,13 +375,13 @@ void add_parts(const GridCell& cell, std::pmr::vector<Stretch>& stretches) {
 
 /// Cells that hold what is credible are everywhere as dense as this.
 double density_of_enough(const Grid& grid) {
-  std::pmr::vector<Stretch> cells(grid.memory());
+  std::pmr::vector<EvenMass> cells(grid.memory());
   for (const GridCell& cell : grid.cells()) {
     if (cell.share > 0) cells.push_back({densities_in(cell).lo, cell.share, 0});
   }
   sort_by_density(cells);
   double held = 0;
-  for (const Stretch& cell : cells) {
+  for (const EvenMass& cell : cells) {
     held += cell.share;
     if (held >= kCredible) return cell.density;
   }
@@ -395,14 +395,14 @@ double credible_length(const Grid& grid) {
   // Cells that are nowhere as dense are none of those that are asked for. What one fold holds the others hold as well.
   const double enough = density_of_enough(grid);
   const auto folds = static_cast<double>(grid.folds());
-  std::pmr::vector<Stretch> stretches(grid.memory());
+  std::pmr::vector<EvenMass> stretches(grid.memory());
   for (const GridCell& cell : grid.cells()) {
     if (cell.fold == 0 && cell.share > 0 && densities_in(cell).hi >= enough) add_parts(cell, stretches);
   }
   sort_by_density(stretches);
   double share = 0;
   double length = 0;
-  for (const Stretch& stretch : stretches) {
+  for (const EvenMass& stretch : stretches) {
     if (share >= kCredible) break;
     // A stretch has a copy on each fold: as many of them as are still needed.
     const double count = std::min(folds, std::ceil((kCredible - share) / stretch.share));

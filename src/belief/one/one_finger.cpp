@@ -12,10 +12,10 @@
 // the roll shares; the density along the boundary; and the facade of all of it.
 // Notation:
 //   w, s            tilted turning of the first contact, the grid's coordinate, and its place: GridPoint, GridCell
-//   share           of the mass, in a cell, a little piece of a mode (Piece) or a piece of the density (DensityPiece)
-//   cost, volume    -2 log L = cost + log_volume at a point: Score
-//   widened         by how much the rows are further off than the noise says: `fit_.widened`
-//   eps, gamma, b   scales of lengths and of turns and a gyroscope's bias: `shared_error` 2, 3 and 4
+//   share           of the mass, in a cell, a little piece of a mode (MassPiece) or a piece of the density
+//   (DensityPiece) cost, volume    -2 log L = cost + log_volume at a point: Score widened         by how much the rows
+//   are further off than the noise says: `fit_.widened` eps, gamma, b   scales of lengths and of turns and a
+//   gyroscope's bias: `shared_error` 2, 3 and 4
 // Follows docs/belief.md, "The computation" and "When the rows fit badly".
 // Idea: cells are cut into parts of about the same mass (one finger), or little pieces are counted by steps (two): both
 // give a density that is constant on each piece. The fit is that of the likeliest point.
@@ -35,7 +35,7 @@ constexpr double kSpread = 2;
 constexpr double kFewestSmoothed = 6;
 
 /// What is held by steps from `lo` on, `inner` of them and those that the spread reaches.
-std::vector<double> spread_out(const std::vector<Piece>& pieces, std::size_t finger, double lo, double step,
+std::vector<double> spread_out(const std::vector<MassPiece>& pieces, std::size_t finger, double lo, double step,
                                std::size_t inner) {
   std::vector<double> held(inner + 2 * static_cast<std::size_t>(kSpread), 0.0);
   // The hat's integral up to x, 0 to 1. A step's share of a piece is the difference between its ends.
@@ -43,7 +43,7 @@ std::vector<double> spread_out(const std::vector<Piece>& pieces, std::size_t fin
     const double at = std::clamp(x / kSpread, -1.0, 1.0);
     return at < 0 ? 0.5 * (1 + at) * (1 + at) : 1 - 0.5 * (1 - at) * (1 - at);
   };
-  for (const Piece& piece : pieces) {
+  for (const MassPiece& piece : pieces) {
     const double at = (piece.s[finger] - lo) / step;
     const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(at - kSpread)));
     for (std::size_t k = begin; k < held.size() && static_cast<double>(k) < at + kSpread; ++k) {
@@ -87,11 +87,11 @@ Density density_of(const Grid& grid, const Boundary& places) {
 }
 
 /// Steps of equal width over the range of the pieces, with what each step holds. A range of width 0 is one step.
-void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
+void add_density(const std::vector<MassPiece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
                  Density& density) {
   if (pieces.empty()) return;
   const auto [first, last] = std::minmax_element(
-      pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return a.s[finger] < b.s[finger]; });
+      pieces.begin(), pieces.end(), [&](const MassPiece& a, const MassPiece& b) { return a.s[finger] < b.s[finger]; });
   Interval range{first->s[finger], last->s[finger]};
   const double wanted = range.width() / std::max(kDensityStep * mode.sd[finger], 1e-300);
   const double inner = range.width() > 0 ? std::clamp(std::ceil(wanted), 1.0, kMostDensitySteps) : 1;
@@ -102,7 +102,7 @@ void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t
     range.lo -= kSpread * step;
     held = spread_out(pieces, finger, range.lo, step, held.size());
   } else {
-    for (const Piece& piece : pieces) {
+    for (const MassPiece& piece : pieces) {
       const double at = step > 0 ? std::floor((piece.s[finger] - range.lo) / step) : 0;
       held[static_cast<std::size_t>(std::clamp(at, 0.0, inner - 1))] += piece.share;
     }
@@ -328,11 +328,11 @@ class OneFingersPosterior : public Posterior {
     return most;
   }
 
-  std::vector<Piece> pieces(std::size_t /*index*/, const Mode& mode) const override {
-    std::vector<Piece> pieces;
+  std::vector<MassPiece> pieces(std::size_t /*index*/, const Mode& mode) const override {
+    std::vector<MassPiece> pieces;
     // First the mode's own start, with no share: poses are compared with its pose.
     pieces.push_back({mode.start, mode.tangent});
-    for (Piece& piece : pieces_of(state_->grid, state_->boundary)) {
+    for (MassPiece& piece : pieces_of(state_->grid, state_->boundary)) {
       if (part_.boundary().contains(mode.region[0], piece.s[0])) pieces.push_back(std::move(piece));
     }
     if (pieces.size() > 1) pieces.front().pose = pieces[1].pose;
@@ -381,7 +381,6 @@ class OneFingersPosterior : public Posterior {
     if (kind_ != LogKind::contact) return sample.reading.turn;
     return sample.contact ? (*sample.contact)[0].psi - first_psi_ : 0;
   }
-  const CentreModel* centres() const { return state_->has_first ? &state_->centres : nullptr; }
 
   Part part_;
   LogKind kind_;

@@ -120,8 +120,8 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
                          double excess, const std::array<double, 2>& corner_length);
 
 struct PairModes {
-  std::vector<Mode> modes;                 // the most probable first
-  std::vector<std::vector<Piece>> pieces;  // of each, without those of next to no probability
+  std::vector<Mode> modes;                     // the most probable first
+  std::vector<std::vector<MassPiece>> pieces;  // of each, without those of next to no probability
 };
 
 /// The connected pieces of a density: two peaks are two modes where it falls far enough on every way between them.

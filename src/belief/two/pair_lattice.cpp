@@ -105,7 +105,6 @@ class Spreading {
   double unresolved() const { return unresolved_; }
 
  private:
-  enum class Outcome { negligible, resolved, outside };
   /// A square to look into, with a guess of the shared errors x there: linear in w about the square that it came from.
   struct Task {
     Eigen::Vector2d centre;

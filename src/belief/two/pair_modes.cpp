@@ -141,14 +141,14 @@ class PairHill {
   }
 
   /// The grains that hold anything, with what their leaf knows of the first contacts' slide.
-  std::vector<Piece> pieces() const {
+  std::vector<MassPiece> pieces() const {
     const auto counts = [](const PairGrain& grain) { return grain.share > kLeastShare; };
     std::ptrdiff_t count = 0;  // of a continuum hundreds of thousands, so that no room is made for more
     for (const std::size_t k : leaves_) {
       const std::vector<PairGrain>& grains = region_->leaves[k].grains;
       count += std::count_if(grains.begin(), grains.end(), counts);
     }
-    std::vector<Piece> pieces;
+    std::vector<MassPiece> pieces;
     pieces.reserve(static_cast<std::size_t>(count));
     for (const std::size_t k : leaves_) {
       const PairScore& score = region_->leaves[k].score;
@@ -335,7 +335,7 @@ PairModes modes_of(const PairDensity& density, const PairModel& model, const Rea
   }
   struct Found {
     Mode mode;
-    std::vector<Piece> pieces;
+    std::vector<MassPiece> pieces;
   };
   std::vector<Found> all;
   for (const PairHill& hill : hills) {

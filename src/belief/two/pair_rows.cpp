@@ -13,7 +13,7 @@
 namespace rollfix::belief {
 namespace {
 
-constexpr std::size_t kRowsOfUnit = 16;  // see rows_of_median
+constexpr std::size_t kRowsOfUnit = kRowsOfMedian;
 constexpr std::size_t kMostRows = kMostNodes * kRowsOfUnit;
 
 /// `far` up to half turns, as near as can be to `near`.

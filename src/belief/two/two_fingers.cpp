@@ -151,12 +151,12 @@ class TwoFingersPosterior : public Posterior {
   }
 
   /// First the likeliest piece with share 0, as the reference; then all of the mode.
-  std::vector<Piece> pieces(std::size_t index, const Mode& /*mode*/) const override {
-    std::vector<Piece> pieces = pieces_[index];
+  std::vector<MassPiece> pieces(std::size_t index, const Mode& /*mode*/) const override {
+    std::vector<MassPiece> pieces = pieces_[index];
     const auto best = std::max_element(pieces.begin(), pieces.end(),
-                                       [](const Piece& a, const Piece& b) { return a.share < b.share; });
+                                       [](const MassPiece& a, const MassPiece& b) { return a.share < b.share; });
     if (best == pieces.end()) return pieces;
-    const Piece reference = *best;
+    const MassPiece reference = *best;
     pieces.insert(pieces.begin(), reference);
     pieces.front().share = 0;
     return pieces;
@@ -288,7 +288,7 @@ class TwoFingersPosterior : public Posterior {
   std::optional<PairCentres> first_centres_;  // at the first contacts
   std::unique_ptr<const Question> question_;  // of all rows so far, with its peaks; none: they were not looked for yet
   Peaks peaks_;                               // of question_
-  std::vector<std::vector<Piece>> pieces_;    // of each mode
+  std::vector<std::vector<MassPiece>> pieces_;  // of each mode
 };
 
 Innovations TwoFingersPosterior::innovations_at(const Question& question, const PairPeak& peak) {

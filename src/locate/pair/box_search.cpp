@@ -144,16 +144,16 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
 /// on both sides' cubics, which needs no evaluation of the curves. A start for Newton's method on the curves
 /// themselves.
 Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows) {
-  const std::array<Cubic, 2> on_a{sides.a.cubic(rows[0]), sides.a.cubic(rows[1])};
-  const std::array<Cubic, 2> on_b{sides.b.cubic(rows[0]), sides.b.cubic(rows[1])};
+  const std::array<ResidualCubic, 2> on_a{sides.a.cubic(rows[0]), sides.a.cubic(rows[1])};
+  const std::array<ResidualCubic, 2> on_b{sides.b.cubic(rows[0]), sides.b.cubic(rows[1])};
   Eigen::Matrix2d slopes;
   Vec2 f;
   Vec2 shares = Vec2::Zero();
   for (int round = 0; round < kCubicRounds; ++round) {
     for (const Eigen::Index k : {0, 1}) {
       const std::size_t row = rows[static_cast<std::size_t>(k)];
-      const Cubic& a = on_a[static_cast<std::size_t>(k)];
-      const Cubic& b = on_b[static_cast<std::size_t>(k)];
+      const ResidualCubic& a = on_a[static_cast<std::size_t>(k)];
+      const ResidualCubic& b = on_b[static_cast<std::size_t>(k)];
       f[k] = a.value(shares.x()) - b.value(shares.y()) - sides.shift(row, limits);
       if (round == 0) {
         slopes.row(k) << a.value(1) - a.value(0), b.value(0) - b.value(1);
@@ -170,11 +170,11 @@ Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const s
 
 }  // namespace
 
-BoxSearch::BoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget,
-                     PairFindings& findings)
+PairBoxSearch::PairBoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget,
+                             PairFindings& findings)
     : a_(a), b_(b), limits_(limits), budget_(budget), findings_(findings) {}
 
-void BoxSearch::run() {
+void PairBoxSearch::run() {
   if (a_.root() < 0 || b_.root() < 0) return;
   waiting_.reserve(kBoxRoom);
   findings_.pieces.reserve(kBoxRoom);
@@ -187,7 +187,7 @@ void BoxSearch::run() {
   }
 }
 
-void BoxSearch::decide(const Box& box) {
+void PairBoxSearch::decide(const Box& box) {
   beat();
   ++findings_.counts.intervals;
   const PairLimits limits = box.covered ? limits_.inside() : limits_;
@@ -234,7 +234,7 @@ void BoxSearch::decide(const Box& box) {
 
 /// Are A_0 + A_1 and B_0 + B_1 further apart than the tolerance allows, or A_0 - A_1 and B_0 - B_1? Each of the two may
 /// be off by both rows' tolerances.
-bool BoxSearch::meet_nowhere_across(const Box& box, double lap, double tolerance) const {
+bool PairBoxSearch::meet_nowhere_across(const Box& box, double lap, double tolerance) const {
   if (a_.rows() < 2) return false;
   const double shift = limits_.facing && a_.rows() == 2 ? lap : 0;
   const auto& of_a = a_.node(box.a).diagonals;
@@ -244,7 +244,7 @@ bool BoxSearch::meet_nowhere_across(const Box& box, double lap, double tolerance
   return !sum.comes_within(2 * tolerance) || !difference.comes_within(2 * tolerance);
 }
 
-void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits) {
+void PairBoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits) {
   // First what ends most boxes: at most one root, and it is found or excluded.
   if (const auto rows = regular(sides); rows && take_regular(sides, limits, *rows)) return;
   // Then f that does not vary enough for halving to tell more.
@@ -263,7 +263,7 @@ void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairL
 }
 
 /// Which side to halve: the one that is still over many pieces, else the one that f varies more along.
-bool BoxSearch::a_is_wider(const Box& box) const {
+bool PairBoxSearch::a_is_wider(const Box& box) const {
   const PlaneCurve::Node& a = a_.node(box.a);
   const PlaneCurve::Node& b = b_.node(box.b);
   if (a.on_one_piece() != b.on_one_piece()) return b.on_one_piece();
@@ -277,7 +277,7 @@ bool BoxSearch::a_is_wider(const Box& box) const {
   return spread_a > spread_b;
 }
 
-void BoxSearch::halve(const Box& box, bool side_a) {
+void PairBoxSearch::halve(const Box& box, bool side_a) {
   const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
   const int depth = on_pieces ? box.depth + 1 : 0;
   const auto [left, right] = side_a ? a_.halves(box.a) : b_.halves(box.b);
@@ -289,7 +289,7 @@ void BoxSearch::halve(const Box& box, bool side_a) {
 
 /// Are the two sides further apart than the tolerance, seen along either one's chord? Across its own chord a side is
 /// thin: its bounds fall with the square of its length. Both are bounded as one combination of two components.
-bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) const {
+bool PairBoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) const {
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
       for (const Vec2& direction : {chord(sides.a, p, q), chord(sides.b, p, q)}) {
@@ -308,7 +308,7 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
 
 /// Each entry of J has bounds on the box. With Y the inverse of their middles, |1 - Y J| is bounded entry by entry
 /// (`off`). If the spectral radius of that is below 1, Y J is invertible anywhere in the box, and so is J.
-std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) const {
+std::optional<PairBoxSearch::Regular> PairBoxSearch::regular(const PairBoxSides& sides) const {
   std::optional<Regular> best;
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
@@ -345,7 +345,7 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
 /// J is invertible on the box: f, continued beyond the box by its tangents there, has exactly one zero x* in the whole
 /// plane (Hadamard). Newton's method finds it. Lists it as a crossing if it is in the box, with the set within the
 /// tolerance around it.
-bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular) {
+bool PairBoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular) {
   const auto [p, q] = regular.rows;
   const Eigen::Array2d same_place(sides.a.same_place(limits_), sides.b.same_place(limits_));
   const Eigen::Array2d width = Eigen::Array2d(sides.a.width(), sides.b.width()).max(same_place);
@@ -414,7 +414,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
 /// Decides boxes on which f varies by less than rounding or than a share of the tolerance, and boxes as small as
 /// rounding. f is 0 all over the box (a continuum, `exact`); or all of the box is in or out as its middle is; or f is
 /// within the tolerance all over it, so that the box is listed and its roots are left to be found.
-BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
+PairBoxSearch::Flat PairBoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
   const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
   const double small_spread = kSmallVariation * limits.tolerance;
   for (std::size_t row = 0; row < a_.rows() && !tiny; ++row) {  // nearly always the first one settles it
@@ -456,7 +456,7 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
 }
 
 /// Is f zero at two corners of the box? Then the curves may run along each other from one to the other.
-bool BoxSearch::corners_vanish(const PairBoxSides& sides) const {
+bool PairBoxSearch::corners_vanish(const PairBoxSides& sides) const {
   std::array<bool, 4> zero{true, true, true, true};
   for (std::size_t row = 0; row < a_.rows(); ++row) {
     const PlaneCurve::Component& of_a = sides.a.component(row);

@@ -17,11 +17,11 @@ namespace rollfix::locating {
 /// its sides can't meet; where J has an inverse on all of it there is one root at the most, and Newton's method says
 /// whether; where the curves run alongside each other one equation is followed as a line through the box; what is left
 /// is halved.
-class BoxSearch {
+class PairBoxSearch {
  public:
   /// Both curves have the same rows; their trees grow during the search. `budget` is taken from, `findings` is added
   /// to.
-  BoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
+  PairBoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
 
   /// Decides all pairs of places on the two curves, depth first. What is over when the budget ends is in `unresolved`.
   void run();

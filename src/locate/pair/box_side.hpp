@@ -16,9 +16,9 @@ inline constexpr double kSmallVariation = 0.25;
 
 /// The cubic on [0, 1] with these values and slopes at the ends (Hermite). Slopes are by x in [0, 1]: those of a side,
 /// times its width.
-class Cubic {
+class ResidualCubic {
  public:
-  Cubic(double first, double last, double slope_first, double slope_last)
+  ResidualCubic(double first, double last, double slope_first, double slope_last)
       : first_(first),
         slope_(slope_first),
         square_(3 * (last - first) - 2 * slope_first - slope_last),
@@ -49,7 +49,7 @@ class BoxSide {
   /// What is known of component `row` on this side.
   const PlaneCurve::Component& component(std::size_t row) const { return components_[row]; }
   /// Through its values and slopes at the ends: nearly the component itself.
-  Cubic cubic(std::size_t row) const {
+  ResidualCubic cubic(std::size_t row) const {
     const PlaneCurve::Component& of = component(row);
     return {of.first, of.last, width() * of.first_slope, width() * of.last_slope};
   }

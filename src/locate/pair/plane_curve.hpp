@@ -52,7 +52,7 @@ class CurvePoint {
 
 /// One side of equations that are each a function of s less a function of t: a curve with a component for each
 /// equation, cut into pieces with a coordinate x each, and a tree of intervals over it with bounds on every component.
-/// x is s, or at a corner an angle, s being a constant. Two of them are what BoxSearch looks for common points of.
+/// x is s, or at a corner an angle, s being a constant. Two of them are what PairBoxSearch looks for common points of.
 ///
 /// Who derives from it makes the tree (`make_on_piece`, `make_bounded`, `join`, `set_root`) and says how a node is
 /// halved, what the components are at x, and what bounds slopes have between two places. REQUIRES pieces in order of s;
