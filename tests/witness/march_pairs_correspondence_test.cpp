@@ -32,7 +32,7 @@ struct Question {
 template <class Look>
 void each_of_some(int stream, const Look& look) {
   auto generator = test_generator(static_cast<std::uint64_t>(stream));
-  for (int round = 0; round < test_count(3); ++round) {
+  for (int round = 0; round < full_count(3); ++round) {
     for (const Outline& outline : {egg(), amoeba(), random_spline(generator, 9)}) {
       Question question(outline, generator);
       question.pieces.each(

@@ -70,7 +70,7 @@ TEST(PairClosedForms, a_finger_that_rolled_along_a_wall_began_anywhere_but_so_ne
 
 TEST(PairClosedForms, a_heading_told_by_normals_and_by_the_line_between_both_contacts_is_as_sure_as_their_best_mean) {
   const Noise noise = noise_of(0.02, 0.01);
-  rollfix::belief::Piece piece{{0.5, 2.5}, {0.0, kPi}};
+  rollfix::belief::MassPiece piece{{0.5, 2.5}, {0.0, kPi}};
   piece.share = 1;
   const rollfix::PerFinger<rollfix::MeasuredContact> felt{rollfix::MeasuredContact{{0.5, 0}, kPi / 2},
                                                           rollfix::MeasuredContact{{0.5, 1}, -kPi / 2}};
