@@ -191,6 +191,17 @@ TEST(PairBelief, takes_long_logs_as_it_takes_short_ones) {
   EXPECT_NEAR(all.held / (2.0 * all.cases), 0.95, 0.02 + 4 * std::sqrt(0.95 * 0.05 / all.cases));
 }
 
+/// What the fingers measured at their first contacts.
+rollfix::PerFinger<rollfix::MeasuredContact> felt_at_first(const Case& drawn) {
+  rollfix::PerFinger<rollfix::MeasuredContact> felt = {rollfix::MeasuredContact{}, rollfix::MeasuredContact{}};
+  for (const std::size_t finger : {0U, 1U}) {
+    const rollfix::FingerRows& rows = drawn.log.fingers[finger];
+    const double radius = drawn.fingers[finger].radius;
+    felt[finger] = {free_rolls::felt_contact(rows, radius, 0), rows.u[0] + rows.psi[0], 1 / radius};
+  }
+  return felt;
+}
+
 TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
   const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
   std::mt19937_64 generator = test_generator(16);
@@ -202,13 +213,7 @@ TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
     // Fingers that touch at the same place would be in each other's way, and tell less than any pose.
     if (part.boundary().distance(drawn.start[0], drawn.start[1]) < 0.4) continue;
     Belief belief = belief_of(part, drawn, options);
-    rollfix::PerFinger<rollfix::MeasuredContact> felt = {rollfix::MeasuredContact{}, rollfix::MeasuredContact{}};
-    for (const std::size_t finger : {0U, 1U}) {
-      const rollfix::FingerRows& rows = drawn.log.fingers[finger];
-      const double radius = drawn.fingers[finger].radius;
-      felt[finger] = {free_rolls::felt_contact(rows, radius, 0), rows.u[0] + rows.psi[0], 1 / radius};
-    }
-    const rollfix::PoseSpread spread = belief.pose_spread(0, felt);
+    const rollfix::PoseSpread spread = belief.pose_spread(0, felt_at_first(drawn));
     // free_rolls::by_distances puts the part there.
     const Eigen::Vector3d off(spread.mean.x - 0.4, spread.mean.y + 0.7,
                               std::remainder(spread.mean.heading - 2.1, 2 * std::numbers::pi));
@@ -217,6 +222,20 @@ TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
   }
   // The mean of chi-squares with three degrees of freedom.
   EXPECT_NEAR(sum / cases, 3, 0.3 + 4 * std::sqrt(6.0 / cases)) << "seed " << test_seed();
+}
+
+/// The roll itself is the same: only what is said of the slip differs.
+TEST(PairBelief, slip_on_the_way_leaves_the_heading_that_the_first_contacts_tell) {
+  const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
+  std::mt19937_64 generator = test_generator(20);
+  const BeliefOptions hardly = options_with(0.003, 0.003, 0.0002);
+  for (int k = 0; k < test_count(6); ++k) {
+    const Case drawn = random_pair(part, 100, hardly.noise, generator);
+    const auto heading_sd = [&](const BeliefOptions& options) {
+      return std::sqrt(belief_of(part, drawn, options).pose_spread(0, felt_at_first(drawn)).covariance(2, 2));
+    };
+    EXPECT_LT(heading_sd(options_with(0.003, 0.003, 0.02)), 2.5 * heading_sd(hardly)) << k;
+  }
 }
 
 TEST(PairBelief, says_the_same_twice) {

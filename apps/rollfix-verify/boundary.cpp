@@ -92,7 +92,7 @@ Boundary::Piece Boundary::piece_between(const Formula& formula, double lo, doubl
   piece.length = with_remainder(integral(thin.speed), integral(wide.speed), kOrder);
   piece.angle = with_remainder(integral(thin.turning), integral(wide.turning), kOrder);
   piece.least_speed = std::max(wide.speed[0].lower(), 0.0);
-  // The last term's width times reach^kOrder is what the polynomial leaves open.
+  // Half the width of the last coefficient times reach^kOrder is what the polynomial leaves open to either side.
   const double reach = std::max(hi - piece.middle, piece.middle - lo) + margin;
   const auto is_within = [&](const Series& polynomial, double most) {
     const Ball last = polynomial[kOrder];
@@ -295,7 +295,7 @@ std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& a
   std::vector<Ball> sets;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Segment& one = all[k];
-    // From the first angle on, by |dTheta/du| over the whole segment: finite at rest as well.
+    // From the first angle on, by dTheta/du over the whole segment: finite at rest as well.
     const Ball here =
         one.from.angle + up_to(one.to.u - one.from.u) * boundary.turning(one.from.curve, hull(one.from.u, one.to.u));
     const bool goes_on = k > 0 && !boundary.is_concave(all[k - 1].from.curve);

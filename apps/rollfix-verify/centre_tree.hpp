@@ -49,7 +49,7 @@ class CentreTree {
     int right = -1;
   };
 
-  /// `considered`: none: all of the boundary. Throws std::domain_error: a finger that has no place.
+  /// `considered`: none: all of the boundary. A finger that has no place leaves the tree without a root: -1.
   CentreTree(const Boundary& boundary, double radius, const std::optional<Considered>& considered);
 
   int root() const { return root_; }
@@ -79,7 +79,7 @@ class CentreTree {
   int add(Node node);
   /// A node of the pivot at a curve's end over some angles.
   Node corner(long curve, const Interval& angles) const;
-  /// The root of a tree over nodes from the one to before the other.
+  /// The root of a tree over the nodes `from` up to `to`, which is not included.
   int join(std::size_t from, std::size_t to);
 
   const Boundary& boundary_;

@@ -45,7 +45,7 @@ std::string contact_text(const Json& touch) {
   return text;
 }
 
-/// Of a roll: each reading with its tolerance behind them.
+/// The readings of a roll, and at the end their common tolerance.
 std::string readings_text(const Json& roll) {
   std::string text;
   for (const Json& reading : roll.at("readings")) {

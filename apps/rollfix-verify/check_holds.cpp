@@ -133,7 +133,7 @@ class Holds {
     }
   }
 
-  /// All contacts and pins with the stated pose. x and the heading are mirrored back if the part lies face down.
+  /// All contacts and pins with the stated pose, which is taken into the mirror if the part lies face down.
   void check_instant(const Json& set, const std::vector<Place>& first, std::size_t t, const std::string& name) const {
     const Json& stated = set.at("instants").at(t);
     Lie lie;
@@ -275,7 +275,7 @@ class Holds {
     verdict.unproved = covered.undecided;
     verdict.open = covered.open;
     for (const HeldSet& one : open) {
-      // Of the product of all boundaries: what the open arcs are of it.
+      // The share of all first contacts that is in these arcs: the product over the fingers.
       double share = 1;
       for (const Interval& arc : one) share *= std::min(arc.width() / period_, 1.0);
       verdict.share = std::min(verdict.share + share, 1.0);

@@ -197,8 +197,8 @@ class OneFinger {
 
   // ---- groups ----
 
-  /// From the first cell on that is apart, so that none is cut at the first row; of an open outline from the beginning.
-  /// Runs of neighbouring cells that are not apart. Each is to be one placement.
+  /// Runs of neighbouring cells that are not apart. Each is to be one placement. From the first cell on that is apart,
+  /// so that none is cut at the first row; of an open outline from the beginning.
   std::vector<Group> groups() const {
     const std::size_t count = cells_.size();
     std::size_t first = 0;
@@ -321,8 +321,8 @@ class OneFinger {
     return readings_[0].changes_sign(from, to) == (kind == "crossing");
   }
 
-  /// The one root of a cell is within the accuracy that is promised on either side of the start, in the cell.
-  /// f must have opposite signs on both sides of the start, in its cell. The cell has exactly one root, so it is there.
+  /// The one root of a cell is within the accuracy that is promised on either side of the start, in the cell: f has
+  /// opposite signs there. Where f is too flat for that, it must vanish at the start, to rounding.
   void check_root(const std::string& name, const Place& start, std::size_t cell) const {
     const auto beside = [&](const Row& end, double way) {  // the cell's end, where that is nearer
       const double ahead = (end.start.s - start.s).middle();

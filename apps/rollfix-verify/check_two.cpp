@@ -405,7 +405,7 @@ class TwoFingers {
       }
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
-      // Each root is a piece.
+      // Each set that stands for itself is a piece.
       if (piece[i] == i) ++all[i].first->pieces;
     }
   }

@@ -166,7 +166,7 @@ std::vector<FingerCurve::Cut> FingerCurve::cuts_between(double lo, double hi, Cu
       Budget::spend(kJointWork * static_cast<double>(joints));
       for (long k = 0; k < joints; ++k) {
         const bool is_corner = boundary_.turns(k);
-        // Places at rest without a turn are no cuts: there angles are bounded by their ranges.
+        // Places at rest without a turn are no corners here: beside them angles are bounded by their ranges.
         if (!is_corner && (cuts == Cuts::corners || !bends_at(boundary_, k))) continue;
         const double s = (boundary_.back(k + laps * boundary_.curves()).s - length).middle();
         // The first contact that brings this contact to the joint.

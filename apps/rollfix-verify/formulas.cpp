@@ -350,7 +350,7 @@ Formula naca(const Numbers& n, bool upper, bool fore) {
   });
 }
 
-/// Without camber, whose place is then of no account.
+/// Without camber; where it would be does not matter then.
 Formula symmetric_naca(const Numbers& n, bool upper) {
   return naca({n[0], n[1], 0, 1, upper ? -1.0 : 0.0, upper ? 0.0 : 1.0}, upper, true);
 }

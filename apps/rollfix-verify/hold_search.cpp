@@ -278,8 +278,7 @@ bool HoldSearch::keep_chord(const Nodes& box, std::size_t instant, std::size_t o
   const double part = std::hypot(part_x, part_y), world = std::hypot(world_x, world_y);
   // The chords' lengths differ by more than all that both contacts may be off.
   if (std::abs(part - world) > reach) return false;
-  // The law of cosines.
-  // |R(phi) part - world| <= reach is an interval of angles between the two chords:
+  // By the law of cosines |R(phi) part - world| <= reach leaves an interval of phi.
   const double cosine = (part * part + world * world - reach * reach) / (2 * part * world);
   // Any angle will do, also where a chord has no length.
   if (!(cosine > -1)) return true;

@@ -90,7 +90,7 @@ class LeftOut {
     Considered result;
     const double slack = kLengthSlack * period_;
     for (const Interval& gap : without({0, period_}, arcs)) {
-      // Gaps within the slack of both ends are rounding.
+      // Gaps no wider than the slack of both their ends are rounding.
       if (gap.width() > 2 * slack) result.arcs.push_back(gap);
     }
     for (long curve = 0; curve < boundary.curves(); ++curve) {

@@ -143,7 +143,8 @@ RollStarts::On RollStarts::look(const CentreTree::Node& node) const {
   return result;
 }
 
-/// The test of one stated place: not excluded by any reading, to the slack of stated lengths and angles.
+/// The test of one stated place, to the slack of stated lengths and angles: no reading excludes it, and it is known of
+/// each where its roll ends.
 bool RollStarts::may_start(const Place& place, const Ball& direction) const {
   const Ball own = place.angle;
   const Ball start = own + to_nearest_turn(direction - base_ - own) + around_zero(kTurnSlack);

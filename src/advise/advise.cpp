@@ -104,7 +104,7 @@ struct Trial {
   }
 
   Way way;
-  /// on this way below 0, and above it
+  /// of the rolls on this way with a length below 0, and of the others
   Comparison back;
   Comparison forward;
   /// by growing length
@@ -131,7 +131,7 @@ Choice least_travel(const Trial& trial, double one_roll) {
     const ExpectedGain& gain = trial.gains[k];
     // The roll itself, and a further one with the probability that something is left.
     const double cost = gain.travel + one_roll * (1 + open[k]);
-    // Of the probability that some roll settles at least 1 - kMostOpen.
+    // It settles at least the share 1 - kMostOpen of the probability that the best roll settles.
     const bool is_enough = open[k] <= least_open + kMostOpen * (1 - least_open);
     if (gain.length != 0 && is_enough && cost < choice.cost) choice = {k, cost};
   }
@@ -172,7 +172,7 @@ double travel_elsewhere(const std::vector<PartHypothesis>& hypotheses, const std
       // Only what this way never tells for sure.
       if (!trial.to_go->matters(i, j) || trial.told(i, j, 0) < kNever) continue;
       double travel = elsewhere(i, j, 0);
-      // In part only where neither this way nor another one tells more.
+      // In part: if no other way tells it for sure, and this one does not even in part.
       if (travel == kNever && trial.told(i, j, 1) == kNever) travel = elsewhere(i, j, 1);
       if (travel < kNever) farthest = std::max(farthest, travel + one_roll);
     }
@@ -189,7 +189,7 @@ std::pair<const Trial*, std::size_t> chosen(const std::vector<PartHypothesis>& h
   const Trial* best = nullptr;
   Choice choice;
   for (const Trial& trial : trials) {
-    // A way that tells nothing costs nothing, and must not be chosen for it.
+    // A way that tells nothing is cheap, and must not be chosen for that.
     if (!trial.to_go->tells_any()) continue;
     // cost of this way: its own travel, and what is left to do on others
     Choice on_this = least_travel(trial, one_roll);

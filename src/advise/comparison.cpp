@@ -260,7 +260,7 @@ void Comparison::note_told(double travel) {
 ExpectedGain Comparison::expected(double x) const {
   const std::size_t n = hypotheses_.size();
   std::vector<double> prior(n);
-  // one more than the largest
+  // one more than the largest label
   std::size_t labels = 0;
   for (std::size_t i = 0; i < n; ++i) {
     prior[i] = hypotheses_[i].hypothesis.probability;
@@ -387,7 +387,7 @@ std::array<double, 2> WayToTell::left_after(std::size_t i, double x) const {
 }
 
 /// To both ends, from a place that far ahead of where both are counted from.
-/// Whichever end comes first is passed twice: the nearer one.
+/// The way to the nearer end counts twice: there and back.
 double WayToTell::shorter_way(const Other& ends, double rolled) {
   // Both ends are counted from where the roll began; the finger is `rolled` ahead of it, and has that much back to go.
   const double on = std::max(ends.forward - rolled, 0.0);

@@ -111,7 +111,7 @@ class Outlooks {
     }
   }
 
-  /// The ways, each as far as all places allow. In parts of the way's direction, as `advise` takes them.
+  /// The ways, each as far as all places allow. Lengths are multiples of the way's direction, as `advise` takes them.
   std::vector<std::pair<PerFinger<double>, Interval>> ways() const {
     std::vector<std::pair<PerFinger<double>, Interval>> all;
     for (std::size_t k = 0; k * hypotheses_.size() * 2 < ahead_.size(); ++k) {

@@ -106,7 +106,7 @@ std::vector<Hypothesis> with_noise(const Part& part, const std::vector<Remaining
   for (std::size_t k = 0; k < all.size(); ++k) {
     // The whole mode as one hypothesis, if it is narrow.
     const Hypothesis whole{all[k].end_mean, all[k].end_sd, all[k].probability / total, k, covariance_now(all[k])};
-    // of the fingers' standard deviations
+    // the largest standard deviation of the fingers' places
     double widest = 0;
     for (const double sd : whole.sd) widest = std::max(widest, sd);
     if (widest < kWideSpread * part.perimeter()) {

@@ -33,7 +33,7 @@ constexpr double kRollStep = 0.02;
 constexpr int kMostRollSteps = 12;
 // The shortest roll that gains this share of what the best one gains is told.
 constexpr double kNearlyAsMany = 0.9;
-// One that gains less of a bit is none.
+// A roll that gains less than kNearlyAsMany of so many bits is none.
 constexpr double kLeastRollBits = 0.05;
 
 /// Of measured directions, radians; 0: none is measured.
@@ -66,7 +66,7 @@ RollStart start_in(const LikelyPose& one, const TouchAnswer& answer, PartDistanc
   const Vec2 along(-away.y(), away.x());
   const Eigen::Vector3d by_pose(along.x(), along.y(), along.y() * arm.x() - along.x() * arm.y());
   const double share = answer.noise ? kTouchSigmas : 1;
-  // A tolerance is kTouchSigmas standard deviations.
+  // With noise a tolerance is kTouchSigmas standard deviations; without noise it is taken as one.
   const double place_sd = answer.tolerance.back().length / share;
   return {one.weight, nearest.s, std::sqrt(by_pose.dot(one.covariance * by_pose) + place_sd * place_sd)};
 }
@@ -102,7 +102,7 @@ double bits_of(const Part& part, const std::vector<RollStart>& starts, double le
     for (std::size_t j = 0; j < starts.size(); ++j) {
       // d^2 = off^2 / variance
       const double off = turned[i].turn - turned[j].turn;
-      // a turn is the difference of two directions, in either pose
+      // a measured turn is the difference of two directions: 2 sd^2; both forecasts add their own
       const double variance = i == j ? 1 : 2 * sd * sd + turned[i].variance + turned[j].variance;
       weight += starts[j].weight * std::exp(-0.5 * off * off / variance);
     }

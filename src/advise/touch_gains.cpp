@@ -89,7 +89,7 @@ double variance_of(const LikelyPose& one, const NearestOfPart& nearest) {
 /// The circle holds the outline in all poses: `reach_` is half the diagonal of the box around them.
 PartInPoses::PartInPoses(const TouchAnswer& answer, std::vector<LikelyPose> poses)
     : answer_(answer), poses_(std::move(poses)), part_(answer.part) {
-  // by points: for the circle, and for the part's farthest point from its frame's origin
+  // The outline as points: for the circle, and for the part's farthest point from its frame's origin.
   const std::vector<Vec2> outline = answer_.part.polyline(0, answer_.part.perimeter(), 200);
   Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity()), most = -least;
   for (const LikelyPose& one : poses_) {

@@ -94,7 +94,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     throw InputError(
         "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
   }
-  // Below the accuracy of arc lengths on the part it would say nothing.
+  // A standard deviation below the accuracy of arc lengths would be lost in rounding.
   if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
   Belief belief(problem.part, kind_of(problem), options, contacts);
   const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();

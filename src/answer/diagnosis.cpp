@@ -234,7 +234,7 @@ class Diagnostician {
     add(std::move(diagnosis), *belief);
   }
 
-  /// Cause::gyroscope: turns are wrong by one factor. One finger's logs, unless a scale error was stated.
+  /// Cause::gyroscope: turns are wrong by one factor. One finger's logs, unless as large a scale error was stated.
   void try_gyroscope() {
     const bool is_of_log = problem_.measured.is_log() && problem_.measured.log->fingers.size() == 1;
     if (!is_of_log || problem_.noise->gyro >= kUnsaidGyro) return;
@@ -327,9 +327,9 @@ class Diagnostician {
   const Problem& problem_;
   const Observation& observed_;  // of the problem as it was stated
   LengthScales scales_;
-  Fit as_said_;              // of the rows without any mistake mended
-  double log_evidence_ = 0;  // with it, and with as much noise as the rows seem to have
-  Verdict verdict_;          // with it
+  Fit as_said_;              // of the problem as it was stated
+  double log_evidence_ = 0;  // of the same, with as much noise as the rows seem to have
+  Verdict verdict_;          // of the same
   std::vector<Trial> trials_;
   double glance_excess_ = 0;
 };

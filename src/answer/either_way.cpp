@@ -143,7 +143,7 @@ Verdict verdict_of(const Answer& both, const Verdict& likelier, const Verdict& o
     counts.at(both.placements[k].clockwise == likelier_is_clockwise ? 0 : 1) = true;
   }
   Verdict verdict = likelier;
-  // All of one way: its own verdict holds.
+  // All are of the likelier way: its own verdict holds.
   if (!counts[1]) return verdict;
   verdict.fits_badly |= other.fits_badly;
   // One way fits everywhere: together the place is no better known.

@@ -114,7 +114,8 @@ Interval curvature_range(const Part& part) {
   return range;
 }
 
-/// The radius of the largest disk that rolls everywhere; 0 with concave corners, infinite on a convex part.
+/// The radius of the largest disk that no concave place hinders, by its curvature alone: 0 with concave corners,
+/// infinite on a convex part. Narrow gaps are not looked at.
 double largest_disk(const Part& part) {
   const auto is_concave = [](const Corner& corner) { return corner.is_concave(); };  // tiny joints are rolled over
   if (std::any_of(part.corners().begin(), part.corners().end(), is_concave)) return 0;

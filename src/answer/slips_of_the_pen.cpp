@@ -122,7 +122,6 @@ SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns, const s
   SlipOfThePen slip = in_other_angles(cause, 1, columns);
   // Readings: nothing says how far the columns go.
   if (fingers.empty()) return slip;
-  // Of both fingers and all columns the largest.
   slip.left_of_roll = 0;
   for (const FingerRows& rows : fingers) {
     for (const Column column : columns) {
@@ -161,7 +160,6 @@ std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& finge
                                      in_degrees(Cause::u_degrees, {u}, fingers),
                                      in_degrees(Cause::psi_degrees, {psi}, fingers),
                                      in_degrees(Cause::angles_degrees, {u, psi}, fingers)};
-  // Radians that were read as degrees need somebody who stated degrees.
   const bool u_may_be = says_degrees(fingers, "u");
   const bool psi_may_be = says_degrees(fingers, "psi");
   if (u_may_be) slips.push_back(in_radians(Cause::u_radians, {u}));

@@ -64,7 +64,7 @@ Search search(const Problem& problem, const LeadingRows& leading, const Answer& 
   if (leading.readings.empty()) return locate(answer.part, answer.readings, options);
   // Of one finger: with what the rows before the first one say as well.
   std::vector<Reading> readings = answer.readings;
-  // Readings with negative lengths: from the base back to the first contact, on a corner of the finger.
+  // These lead from the base back to the first contact, on a corner of the finger.
   readings.insert(readings.end(), leading.readings.begin(), leading.readings.end());
   Search found = locate(answer.part, readings, options);
   // The search takes the end from its last reading, which is a leading one here.
@@ -147,7 +147,6 @@ void add_poses(const Problem& problem, Answer& answer) {
     const auto largest = [](const std::vector<double>& values) {
       return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
     };
-    // The largest of all rows, length and radians.
     placement.pose_residual = {largest(poses->residual), largest(poses->turn_residual)};
     placement.pose = std::move(poses->pose);
   }

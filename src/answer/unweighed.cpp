@@ -164,7 +164,7 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
     std::vector<Diagnosis> found = diagnose(noisy, observed, *belief);
     for (Diagnosis& one : found) {
       if (!rows_are_exact || !is_mended_exactly(one.cause)) one.noise = *noisy.noise;  // the cure says it all
-      // The noise was never stated: it is not "more than stated", but unstated, and so large.
+      // No noise was stated: the cause is not more noise than stated, but noise of this size that was not stated.
       if (one.cause != Cause::noise) continue;
       one.cause = Cause::unsaid_noise;
       one.noise.contact *= one.noise_scale;

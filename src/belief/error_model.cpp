@@ -35,7 +35,8 @@ constexpr double kMostGivenOut = 1.1;
 double Travel::since_last(const Mark& mark) const {
   // From the last mark backwards to the last one that is apart for certain.
   const double rows = mark.row - marks_.back().row;
-  // The mark that was looked at before `other`: not apart, so that the place where it just was lies between both.
+  // The mark that was looked at before `other`. It is not apart for certain: the way just long enough for that ends
+  // between the two.
   Mark nearer = mark;
   for (std::size_t k = marks_.size(); k-- > 0;) {
     const Mark& other = marks_[k];
@@ -60,7 +61,7 @@ double Travel::since_last(const Mark& mark) const {
   return std::abs(mark.length - marks_.front().length) * rows / (mark.row - marks_.front().row);
 }
 
-/// In the order of the roll: marks only grow in their rows.
+/// REQUIRES marks in the order of their rows.
 double Travel::add(const Mark& mark) {
   const double travelled = since_last(mark);
   so_far_.push_back(so_far_.back() + travelled);
@@ -145,8 +146,8 @@ double SensorErrors::worth(double travelled, double rows) const {
   return std::clamp(0.5 * travelled / noise.correlation, kLeastWorth * rows, rows);
 }
 
-/// A log's first contact is off like any other, but a sum of increments starts from it exactly, and each row adds its
-/// error.
+/// A log's first contact is off like any other. With `bare`, and where increments are summed, it is exact. Of
+/// increments each row adds its error.
 Travel SensorErrors::travel(std::pmr::memory_resource* memory) const {
   const bool is_exact = bare || gathers_rows();
   return {{-1, 0, is_exact ? 0 : contact_variance}, gathers_rows() ? contact_variance : 0, memory};

@@ -2,6 +2,7 @@
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "belief/posterior.hpp"
@@ -267,8 +268,10 @@ std::optional<double> FeltTurning::corner_at(double s) const {
   const double P = turning_->perimeter();
   const Wrapped wrapped = turning_->closed() ? wrap(s, P) : Wrapped{s, 0};
   const auto above = std::lower_bound(corners_.begin(), corners_.end(), wrapped.base);
-  const double first = corners_.front() + P;
-  const double last = corners_.back() - P;
+  // An open outline has none beyond its ends.
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double first = turning_->closed() ? corners_.front() + P : kNone;
+  const double last = turning_->closed() ? corners_.back() - P : -kNone;
   const double next = above != corners_.end() ? *above : first;
   const double before = above != corners_.begin() ? *(above - 1) : last;
   const double nearest = next - wrapped.base < wrapped.base - before ? next : before;

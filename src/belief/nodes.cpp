@@ -39,7 +39,7 @@ constexpr double kOneSide = 10;
 /// Second differences; at both ends that of the neighbour.
 std::vector<double> bends(const Course& course) {
   const std::vector<double>& m = course.values;
-  // Lots of unequal size: middles of neighbours are half of both apart, and so on for the differences.
+  // Lots of unequal size: the middles of two neighbours are half the sum of both sizes apart.
   const auto rows = [&](std::size_t k) { return course.rows.empty() ? 1 : course.rows[k]; };
   const auto slope = [&](std::size_t k) { return (m[k + 1] - m[k]) / (0.5 * (rows(k) + rows(k + 1))); };
   std::vector<double> result(m.size());
@@ -207,7 +207,8 @@ double Nodes::spread_of(const JoinedRows& rows) const {
   const double way = (rows.tilted(tilt_) - before) * rows.rows / since;
   const double steady = way * way / 12;
   const double seen = rows.scatter - noise;
-  // What chance explains is a steady roll; else what was seen, less the noise.
+  // A difference from a steady roll that chance explains counts as none. Else the scatter counts as seen, less the
+  // noise.
   return std::abs(seen - steady) <= kFarthest * of_noise ? steady : std::max(0.0, seen);
 }
 

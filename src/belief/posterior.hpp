@@ -73,7 +73,8 @@ class Whiteness {
     ++count_;
   }
 
-  /// Of neighbours, below 1. Innovations smaller than stated are not scaled up: if they are alike, it does no harm.
+  /// Of neighbours, below 1. Innovations smaller than stated are not scaled up: that they are alike then shows little,
+  /// and the answer is not too sure.
   double correlation() const { return count_ > 0 ? lag_ / std::max(squares_, count_) : 0; }
   /// How unlikely it is that independent ones run like these: as a standard normal deviate.
   double sigmas() const {
@@ -185,8 +186,8 @@ inline double most_scale(double variance) { return std::min(kMostScale, kMostErr
 /// A row that is right, or an outlier: then it says nothing.
 struct Mixture {
   double weight;   // probability that it is right, given how far it is off
-  double cost;     // minus twice the logarithm of its density over the highest one: at least 0, and bounded ...
-  double density;  // ... the highest density of the mixture
+  double cost;     // minus twice the logarithm of its density over the highest one: at least 0, and bounded
+  double density;  // the highest density of the mixture
 };
 
 /// `share`: of outliers. `stray`: density of an outlier, times that share. `peak`: the highest density of a right row,

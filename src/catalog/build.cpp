@@ -27,7 +27,7 @@
 namespace rollfix::catalog {
 namespace {
 
-// Sources that may be ready before one that takes long is: bounds the memory that they wait in.
+// At most so many sources may be ready while an earlier one is not: this bounds the memory.
 constexpr std::size_t kMostWaiting = 512;
 
 /// A part, ready to be written.
@@ -43,6 +43,7 @@ struct ReadyPart {
 
 /// All that a source holds.
 struct ReadySource {
+  std::string stamp;               // of the source just before it was read
   std::vector<ReadyPart> parts;    // of a drawing one for each closed loop
   std::vector<LeftOut> left_out;   // what could not be used of it
   std::vector<std::string> notes;  // of the reader, for people
@@ -108,6 +109,8 @@ ReadyPart ready_part(const Part& part, const std::string& name, double count) {
 /// Of a drawing every closed loop, else the one part.
 ReadySource read_source(const CatalogSource& source, const BuildOptions& options) {
   ReadySource ready;
+  // Before: what is replaced while it is read has another stamp, and the next build reads it again.
+  ready.stamp = stamp_of(source, options);
   try {
     const LoadedPart loaded =
         source.part ? loaded_part(*source.part, options.load) : load_part(source.argument, options.load);
@@ -158,7 +161,7 @@ ReadySource in_catalogs_unit(ReadySource ready, const CatalogSource& source, con
     return ready;
   }
   if (states_a_length(ready.unit)) return read_source(source, in_unit(options, unit));
-  // No unit in a catalog that has one: guessing would be off by a factor.
+  // No unit, in a catalog that has one: a guess could be off by a factor.
   ready.leave_out(source, fmt::format("nobody says in what its lengths are, and the catalog is in {0}: give `unit` {0} "
                                       "where they are as well",
                                       unit));
@@ -201,7 +204,7 @@ class Waiting {
 
  private:
   std::mutex mutex_;
-  std::condition_variable room_;              // for another one: `next_` has grown, or it is closed
+  std::condition_variable room_;              // notified when `next_` has grown, or nothing is taken any more
   std::map<std::size_t, ReadySource> ready_;  // by number, what was not taken yet
   std::size_t next_ = 0;                      // number of the next one to be taken
   bool is_closed_ = false;
@@ -263,9 +266,8 @@ class CatalogWriter {
 
   /// In place of what was there of this source, in the catalog's unit.
   void write(const CatalogSource& source, const BuildOptions& options, ReadySource& ready, BuildReport& report) {
-    // Taken now, when it is written, and looked up within the transaction.
-    const std::string stamp = stamp_of(source, options);
-    if (is_there(source.argument, stamp)) {  // another build was faster
+    const std::string& stamp = ready.stamp;
+    if (is_there(source.argument, stamp)) {  // looked up within the transaction: another build was faster
       ++report.unchanged;
       return;
     }
@@ -464,10 +466,9 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
   };
   const auto go_on = [&](std::size_t /*done*/) {
     try {
-      // An error here ends the build: threads that wait for room are set free first.
       report.stopped = !write_ready();
     } catch (...) {
-      // Threads may wait for room: without this they would never end.
+      // An error ends the build. Threads may wait for room: without this they would never end.
       waiting.close();
       throw;
     }

@@ -71,7 +71,8 @@ bool are_congruent(const Part& one, const std::vector<double>& from, const Part&
 
 namespace {
 
-// A part with less probability is not listed; a larger bound hides more of `rest`.
+// A part with less probability is not listed, and counts in `rest`. Beside a likeliest part that is itself improbable
+// the bound is smaller: see conclude.
 constexpr double kLeastPartProbability = 1e-6;
 
 /// log(exp(a) + exp(b) + ...).
@@ -158,7 +159,6 @@ PartWeight weight_of(std::size_t part, const Answer& answer) {
   weight.fits = !answer.placements.empty();
   if (!weight.fits) return weight;
   for (const Placement& placement : answer.placements) weight.starts.push_back(placement.start[0]);
-  // Without noise nothing is weighed.
   if (!answer.weighing) return weight;
   weight.peak = answer.weighing->evidence.peak;
   // Anywhere on the boundary alike: of two fingers, each.
@@ -196,7 +196,7 @@ Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weigh
   double likeliest = 0;
   for (const double each : conclusion.probability) likeliest = std::fmax(likeliest, each);
   const double least = std::min(kLeastPartProbability, kLeastProbability * likeliest);
-  // Has a probability at all: others were lost to the likeliest one by more than exp(-kNothing).
+  // With noise: its probability is not 0, so it is at least exp(-kNothing) of the likeliest one's.
   const auto counts = [&](std::size_t k) { return !likeness.noisy || conclusion.probability[k] > 0; };
   std::size_t counted = 0;
   for (std::size_t k = 0; k < weights.size(); ++k) {
@@ -212,7 +212,7 @@ Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weigh
     }
   }
   if (likeness.noisy && counted > 0) {
-    // Parts that were searched and came to nothing may still have as much each.
+    // Each part that was searched and has no probability here may still have up to exp(-kNothing).
     conclusion.rest += static_cast<double>(searched - counted) * std::exp(-kNothing);
   }
   // By falling probability; of equal ones, and without noise, by the catalog's order.
@@ -233,7 +233,7 @@ namespace {
 constexpr std::size_t kMostPlaces = 200;
 
 /// Places of all parts as hypotheses of one question: each probability is that of the part times that of the place on
-/// it, and they add up to 1. Labels are counted through, so that no two places share one.
+/// it, and they add up to 1. Labels are counted through, so that no two placements share one.
 std::vector<NextRollOfParts::Place> weighed_places(const Identified& found) {
   std::vector<NextRollOfParts::Place> places;
   std::size_t labels = 0;

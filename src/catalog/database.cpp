@@ -13,9 +13,9 @@
 #include "rollfix/error.hpp"
 
 // SQLite with errors as InputError, and what is in a catalog: its tables and checksums.
-// Follows docs/identify.md, "The catalog", which lists the tables. A checksum is FNV-1a of numbers, lengths of texts,
-// and texts. Those of all parts and of the unit add up, modulo 2^64, to that of the catalog: a part can be added or
-// taken out without reading the others.
+// Follows docs/identify.md, "The catalog", which lists the tables. A checksum is FNV-1a, by words of eight bytes, of
+// numbers, lengths of texts, and texts. Those of all parts and of the unit add up, modulo 2^64, to that of the catalog:
+// a part can be added or taken out without reading the others.
 namespace rollfix::catalog {
 namespace {
 
@@ -231,7 +231,6 @@ CREATE INDEX left_out_by_source ON left_out (source);
 
 /// The tables as they were made: views, triggers and other columns would answer in their place.
 void require_own_tables(const Database& database) {
-  // A view could answer in place of a table, a trigger change what is written.
   Statement strange = database.prepare("SELECT name FROM sqlite_master WHERE type NOT IN ('table', 'index') LIMIT 1");
   if (strange.step()) {
     throw InputError(

@@ -107,8 +107,8 @@ struct PartRow {
 
 /// A row of `shapes` without its fine cells.
 struct ShapeRow {
-  std::string_view outline;  // JSON: its curves by kind
-  std::string_view numbers;  // of the curves, little-endian doubles
+  std::string_view outline;  // JSON: what the outline is, with its curves by kind or its gallery shape
+  std::string_view numbers;  // of the curves, and the gap; little-endian doubles
 };
 
 /// The checksum of all columns.

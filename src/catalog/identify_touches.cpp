@@ -57,7 +57,7 @@ std::string words_for_poses(const PartWeight& weight) {
 const Wording kOfTouches{&words_for_poses, ", but the touches contradict the stated noise"};
 const Wording kOfContacts{&words_for_poses, ", but the measurements contradict the stated noise"};
 
-/// The weight of a part; its starts are the first touch's contacts, from which two outlines are compared.
+/// The weight of a part. Its starts are the first contact of each pose, from which two outlines are compared.
 PartWeight weight_of(std::size_t part, const TouchAnswer& answer) {
   PartWeight weight;
   weight.part = part;

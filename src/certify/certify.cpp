@@ -106,8 +106,8 @@ class Maker {
   }
 
   /// Steps away from one end of an extent (`way` 1 or -1) until |f| is well outside the tolerance, and sets `row`.
-  /// Stops before a corner if |f| is outside there, because beyond a jump f is another value. False: |f| stays too near
-  /// to the tolerance in the room that there is.
+  /// Stops before a corner if |f| is outside there, because beyond a jump f is another value. False: there is no room,
+  /// or |f| stays too near to the tolerance in it.
   bool find_edge(double edge, int way, double room, double& row) const {
     const double most = room / 3;
     // A third of the room for this row, a third for the neighbour's, a third between them.
@@ -141,7 +141,7 @@ class Maker {
         ++k;
         continue;
       }
-      // One entry without room on either side: no row is outside of the tolerance, and the whole outline is left open.
+      // The only entry has no row on one of its sides: nothing is claimed of the whole outline.
       if (found_.size() == 1) {
         join_all();
         found_[0].decided = false;
@@ -197,7 +197,7 @@ class Maker {
   void mark_all() {
     const double period = part_.perimeter();
     double here = range_.lo;
-    // If nothing was found the row stands where |f| is least: there `apart` is hardest to claim.
+    // If nothing was found the row stands where the first reading's |f| is least: there `apart` is hardest to claim.
     if (part_.closed()) here = found_.empty() ? f_.clear(f_[0].nearest(0, period), 1) : found_.front().from;
     const double end = part_.closed() ? here + period : range_.hi;
     for (const Found& one : found_) {

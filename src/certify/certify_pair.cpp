@@ -180,7 +180,7 @@ class PairMaker {
       extent = {extent.lo + shift, extent.hi + shift};
     }
     const double more = 16 * least_step(part_);
-    // On each side of the start the extent is stretched by `kSpare`, and by some steps where it is a point.
+    // On each side of the start the extent is stretched by `kSpare`, and by some steps more, as it may be a point.
     const double before = std::max(0.0, start - extent.lo);
     const double after = std::max(0.0, extent.hi - start);
     return {clear(finger, start - kSpare * before - more, -1), clear(finger, start + kSpare * after + more, 1)};
@@ -216,7 +216,8 @@ class PairMaker {
     return true;
   }
 
-  /// On the part, and apart from what else was found: extents, and boxes that are there.
+  /// On the part, and apart from every other placement that is no continuum: from its box, or without one from its
+  /// extent.
   bool is_free(const PairBox& box, std::size_t k) const {
     if (!is_on_part(box)) return false;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -244,8 +245,9 @@ class PairMaker {
 
   // ---- families ----
 
-  /// The line of a continuum, if it has slope 1 or -1: both fingers' contacts move by the same arc length. Nothing if
-  /// it is bent or has another slope, or if a pair on it is off by more than a share of the tolerance.
+  /// The line of a continuum, if it has slope 1, or -1 and goes round: both fingers' contacts move by the same arc
+  /// length. Nothing if it is bent or has another slope, or if a pair on it is off by more than a share of the
+  /// tolerance.
   std::optional<PairLine> line_of(const Placement& placement) const {
     if (placement.kind != Kind::stretch || placement.family.size() != 2) return std::nullopt;
     auto from = placement.family[0];
@@ -314,7 +316,8 @@ class PairMaker {
     return line.length > 8 * least_step(part_);
   }
 
-  /// First contacts of one finger within which all of a family's cells are; a full lap where the line goes round.
+  /// First contacts of one finger within which all of a family's cells are; a full lap where the line goes round, all
+  /// of an open outline.
   Interval room_for(const Placement& placement, const PairLine& line, std::size_t finger) const {
     const double period = part_.perimeter();
     if (!part_.closed() || line.length >= period) return {0, period};
@@ -324,7 +327,7 @@ class PairMaker {
     return {from - room, from + line.length + room};
   }
 
-  /// `none` for a placement without a box in whose cells it does not start.
+  /// The proof is `none` for a placement that has no box and starts in no cell of its own.
   CertifiedPair certified(std::size_t k) const {
     const CoveredPair& pair = pairs_[k];
     CertifiedPair result;

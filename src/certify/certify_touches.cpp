@@ -21,8 +21,8 @@
 namespace rollfix::certifying {
 namespace {
 
-/// The question of an answer, without what only weighs poses.
-/// Only what decides which poses fit: touches, finger, noise or tolerance, side. No prior and no clear paths.
+/// The question of an answer, with only what decides which poses fit: touches, finger, noise or tolerance, side. No
+/// prior and no clear paths, which only weigh poses or drop them.
 TouchProblem asked(const TouchAnswer& answer, std::optional<std::size_t> budget) {
   TouchProblem problem{answer.part, answer.touches};
   if (answer.radius > 0) problem.finger = disk(answer.radius);
@@ -139,8 +139,8 @@ CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& m
   return result;
 }
 
-/// A little longer, so that no place at their ends is in doubt.
-/// Arcs, each longer by `by` at both ends, from a start in [0, P); a full lap is [0, P].
+/// Arcs, each longer by `by` at both ends, so that no place at their ends is in doubt. Of a closed outline each starts
+/// in [0, P), and a full lap is [0, P].
 std::vector<Interval> widened(std::vector<Interval> arcs, double by, const Boundary& boundary) {
   for (Interval& arc : arcs) {
     arc = {arc.lo - by, arc.hi + by};

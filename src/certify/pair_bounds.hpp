@@ -131,7 +131,7 @@ class PairBounds {
   /// The first and the last number of whole turns that the facing may be off by.
   using Turns = std::pair<int, int>;
 
-  /// Weights of the equations to those of one finger's contacts, the first contact among them.
+  /// From weights of the equations to weights of a finger's contacts, the first contact's at the front.
   Weights contact_weights(const Weights& weights) const;
   /// What a weighted sum of the equations must be equal to: readings' turns and the facing, `turns` whole turns added.
   double right_side(const Weights& weights, int turns) const;

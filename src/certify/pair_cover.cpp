@@ -92,7 +92,8 @@ std::string PairCover::settled(const PairBox& box) {
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (pairs_[k].box && is_inside(box, *pairs_[k].box)) return fmt::format("[{}]", k);
   }
-  // Above the tolerance by a margin: the character then claims 2^-n and the tolerance.
+  // Above the tolerance by a margin: the character claims the power of 1/2 below the bound, and never less than the
+  // tolerance.
   const double bound = kStated * bounds_.bound(box);
   if (bound > tolerance_) return level_of(bound);
   // Not excluded, but what may fit in it is known to be one placement's.
@@ -147,7 +148,7 @@ bool PairCover::is_of(const PairBox& set, const CoveredPair& pair) const {
   if (pair.box) return meets(set, *pair.box, room);
   const Placement& placement = *pair.placement;
   if (!meets(set, {placement.extent[0], placement.extent[1]}, room)) return false;
-  // Half of the set's shorter side: as far the line may be from its middle.
+  // The line may be as far from the set's middle as half of its shorter side.
   const double reach = 0.5 * std::min(set[0].width(), set[1].width());
   return placement.family.empty() || is_near_line(set, placement, reach + placement.family_error + room);
 }
@@ -203,8 +204,8 @@ bool PairCover::is_inside(const PairBox& inner, const PairBox& outer) const {
 }
 
 bool PairCover::is_near(const PairBox& box, const Placement& placement) const {
-  // Within two sides of the box from the extent, widened. An extent that is not thin surrounds far more than the line
-  // through it: there the line decides.
+  // The extent is widened by twice the box's longer side, and by a share of itself. An extent that is not thin holds
+  // much besides the line through it: there the line decides.
   const double reach = 2 * std::max(box[0].width(), box[1].width());
   bool is_thin = placement.family.empty();
   PairBox wide{placement.extent[0], placement.extent[1]};
@@ -234,8 +235,7 @@ bool PairCover::is_near_line(const PairBox& box, const Placement& placement, dou
   return false;
 }
 
-/// On the way from one place to another, by the nearest lap of the third one, the one before and the one after.
-/// Where on the way a place is within reach.
+/// Where on the way a place is within reach: on its lap that is nearest to the way, the one before and the one after.
 PairCover::Shares PairCover::shares_near(const Interval& way, double place, double reach) const {
   const double period = part_.perimeter();
   if (!part_.closed()) return {share_near(way, place, reach), Boundary::empty_arc(), Boundary::empty_arc()};

@@ -165,7 +165,7 @@ CurvePlace place_of(const Part& part, double s) {
 }
 
 /// s of all curve ends where the speed |alpha'(u)| is below `kResting` of that at the curve's other end: Bezier curves
-/// whose first or last control points coincide. The curvature is infinite there.
+/// whose first or last control points coincide. The curvature may be infinite there.
 std::vector<double> places_at_rest(const Part& part) {
   const PartAccess::Data& data = PartAccess::data(part);
   const auto& pieces = data.parametrization.pieces;

@@ -173,8 +173,7 @@ double Residual::nearest(double lo, double hi) const {
 }
 
 /// At each cut: whether f comes within the bound on either side, or by a pivot in between. If both contacts are at
-/// convex corners at once, each pivots on its own, and f takes every sum of parts of their jumps. Corners that both
-/// ends of the roll come to at once each turn by any part of it.
+/// convex corners at once, each pivots on its own, and f takes every sum of parts of their jumps.
 bool Residual::is_near_at_joints(double bound, double lo, double hi) const {
   const std::vector<Cut> all = cuts(lo, hi);
   for (std::size_t k = 1; k + 1 < all.size(); ++k) {
@@ -196,7 +195,7 @@ bool Residual::is_near_at_joints(double bound, double lo, double hi) const {
   return false;
 }
 
-/// 0 where no contact passes a joint.
+/// The places two steps beside each cut, and two steps inside of lo and of hi.
 double Residual::largest_at_joints(double lo, double hi) const {
   double largest = 0;
   for (const Cut& cut : cuts(lo, hi)) {
@@ -207,7 +206,8 @@ double Residual::largest_at_joints(double lo, double hi) const {
   return largest;
 }
 
-/// Radians: the verifier's rounding, and what |f'| changes over the four steps that rows and places keep from a joint.
+/// Radians: the verifier's rounding, and what f changes at most over the four steps that rows and places keep from a
+/// joint.
 double Residual::blur(double s) const { return kMissAtJoints + 4 * step_ * steepest(s); }
 
 double Residual::steepest(double s) const {

@@ -37,7 +37,7 @@ double place_with_tangent(const TurningFunction& turning, double angle) {
   const auto behind = std::upper_bound(spirals.begin(), spirals.end(), angle,
                                        [](double wanted, const Spiral& one) { return wanted < one.start.angle; });
   const Spiral& spiral = behind == spirals.begin() ? *behind : *(behind - 1);
-  // Before the first spiral's angles, or just at its start.
+  // Before the first spiral's angles, or just at the start of the spiral.
   if (angle <= spiral.start.angle) return spiral.lo;
   if (angle >= spiral.end.angle) return spiral.hi;  // in a joint, or on a straight side
   // Theta is continuous and grows on the spiral: one root.

@@ -116,7 +116,7 @@ struct Summary {
   Interval interval;
 };
 
-/// The place of a finger's contact at a row, or behind all of them of a wheel's.
+/// `contact`: a finger's number, or fingers() and a wheel's number behind them.
 Summary summary_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
                    std::size_t contact, const Boundary& boundary) {
   const bool is_wheel = contact >= fit.fingers();

@@ -23,9 +23,8 @@ constexpr double kArcGrain = 1e-12;
 }  // namespace
 
 /// With noise kTouchSigmas standard deviations. Errors of the angle and of the place are added, not their squares,
-/// which only widens the slack. A contact that is off by n along the finger turns
-/// the measured normal by n times the finger's curvature. What n turns the part's tangent by is not in `angle`: the
-/// arc is widened by `travel` instead.
+/// which only widens the slack. A contact that is off by n along the finger turns the measured normal by n times the
+/// finger's curvature. What n turns the part's tangent by is not in `angle`: the arc is widened by `travel` instead.
 Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_noise) {
   if (!has_noise) return {errors.travel, errors.angle, errors.place};
   // e stretches all that was travelled since the first row.

@@ -11,7 +11,7 @@
 
 namespace rollfix::hold {
 
-/// Fingers and wheels together: a box has a node for each.
+/// Fingers and wheels together, at most. A box has a node for each finger.
 inline constexpr std::size_t kMostFingers = 8;
 
 /// An arc of first contacts for each finger: nodes of their trees.

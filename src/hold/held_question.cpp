@@ -166,8 +166,8 @@ Witnessed witnessed(HeldQuestion& question, HoldFit& fit, Boxes boxes, const Fin
           overlaps ? witness_in(question, fit, found, nullptr) : witness_in(question, fit, possible, apart);
       if (state) {
         result.sets.push_back({found.set, std::move(*state), overlaps});
-        // Smaller boxes may exclude it, or lead to a witness.
       } else if (!overlaps) {
+        // Smaller boxes may exclude it, or lead to a witness.
         left.insert(left.end(), found.boxes.begin(), found.boxes.end());
       }
     }

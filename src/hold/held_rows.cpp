@@ -175,7 +175,7 @@ HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::s
   return mean;
 }
 
-/// The mean of the rows from one to before another. `robust`: of fingers their median.
+/// The mean of the rows `from` up to `to`, which is not included. `robust`: the median of what fingers measured.
 HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, bool robust) {
   HeldRow mean = rows[from];
   // A row alone stays as it is, to the last bit.

@@ -74,7 +74,7 @@ std::vector<Log> aligned(std::vector<Log> logs);
 HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs);
 
 /// Rows to search with, in the order in which they tell most: the first, the last, the middle one, ... Those of
-/// HoldProblem::at, or kHoldInstants spread evenly.
+/// HoldProblem::at, or kHoldInstants spread evenly, more if outliers are allowed.
 std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log);
 
 /// The same with neighbouring rows averaged, but for the first and the last one. Rows of one finger beside wheels that

@@ -50,7 +50,7 @@ HoldFit::Counted HoldFit::counted(const Look& look, double square) const {
   // log(e^(-q / 2) + e^stray) without overflow.
   const double more = std::max(stray, -0.5 * square);
   const double sum = more + std::log(std::exp(stray - more) + std::exp(-0.5 * square - more));
-  // Near q = 0 about q; for large q it stays at -2 stray: an outlier costs no more, however far off it is.
+  // For small q about q; for large q it stays at -2 stray: an outlier costs no more, however far off it is.
   return {-2 * sum, std::exp(-0.5 * square - sum)};
 }
 

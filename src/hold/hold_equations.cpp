@@ -104,8 +104,7 @@ double turn_from(const Part& part, double s, double m) {
 
 double curvature_at(const Part& part, double s) { return part.turning().curvature(on_boundary(part.boundary(), s)); }
 
-/// The range holds the pivots of all corners on the arc. `angle` is its middle; of a straight or curved stretch
-/// half_turn is half of what it turns.
+/// The range holds the pivots of all corners on the arc. `angle` is its middle, `half_turn` half its width.
 BlurredPlace ranged(const Part& part, double s, double reach) {
   BlurredPlace place = plain(part, s);
   const Boundary boundary = part.boundary();
@@ -158,7 +157,7 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   // An angle of little weight adds little to the square. It is charged what an angle costs on average, so that no place
   // is likelier because its rows say less.
   sight.blur_size = std::log1p(corner / plain) / alike + 1 - sight.angles;
-  // Else r is linear in n, and n is eliminated by C itself.
+  // Where it is not, r is linear in n, and n is eliminated by C itself.
   const bool is_bent = is_uneven(part_, sight.at, s, errors);
   sight.error = errors.travel / std::sqrt(rows_.rows[row].weight);
   if (!errors.has_place) {
@@ -185,7 +184,7 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
     sight.bare_information = bare.inverse();
     sight.bare_log_size = std::log(bare.determinant());
   }
-  // n itself is in no other place: it moves q and L alike, so that on the part the contact stays where it is.
+  // n adds to the variance of r alone: it moves q and L alike, so that on the part the contact stays where it is.
   covariance(2, 2) += bend * bend;
   covariance /= rows_.rows[row].weight;
   sight.log_size = std::log(covariance.determinant()) + sight.blur_size;
@@ -253,10 +252,9 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
   const double turn = (curvature + finger_curvature) * look.error;
   const double size = 1 + turn * turn * bare(2, 2);
   look.information = bare - turn * turn / size * bare.col(2) * bare.row(2);
-  // det C is by that variance, not by the turn at this n: else places would be likelier at which n comes out on a flat
-  // side.
-  // Variance of the turn over n by Gauss and Hermite's rule of three: n = 0 and +-sqrt(3) sd, with weights 2/3, 1/6,
-  // 1/6.
+  // det C is by the variance of the turn over all n, not by the turn at this n: else places would be likelier at which
+  // n comes out on a flat side. The variance is by Gauss and Hermite's rule of three: n = 0 and +-sqrt(3) sd, with
+  // weights 2/3, 1/6, 1/6.
   const double aside = std::numbers::sqrt3 * look.error;
   const double ahead = turn_from(part_, look.s, aside) + finger_curvature * aside;
   const double back = turn_from(part_, look.s, -aside) - finger_curvature * aside;
@@ -294,8 +292,7 @@ HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_
   return look;
 }
 
-/// The normal equations of one row, P first. `with_unknowns`: B and M as well, which only `reduced` and poses'
-/// covariances need.
+/// The normal equations of one row, P first. `with_unknowns`: B and M as well.
 HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
                                          bool with_unknowns) const {
   RowEquations sum;

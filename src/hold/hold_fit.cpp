@@ -307,7 +307,7 @@ HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const 
     double gain = 0;
     while (damping < kMostFitDamping && !is_better) {
       UnknownsMatrix damped = now.matrix;
-      // Relative damping, and a trace of an absolute one for directions that nothing determines.
+      // Relative damping, and a very small absolute one for directions that nothing determines.
       damped.diagonal() += damping * now.matrix.diagonal() +
                            Unknowns::Constant(size_, 1e-14 * trace + std::numeric_limits<double>::min());
       const Unknowns step = damped.ldlt().solve(now.slope);

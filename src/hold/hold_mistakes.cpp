@@ -71,7 +71,8 @@ Seen seen(const std::optional<HoldAnswer>& answer) {
   if (!answer || answer->status != Status::complete || answer->placements.empty() || !answer->fit) return {};
   const double freedom = std::max(1, answer->fit->freedom);
   const double excess = std::sqrt(answer->fit->chi_square / freedom);
-  // With errors t times as large, t = excess, -chi^2 / 2 becomes -chi^2 / (2 t^2), and n measurements cost n log t.
+  // With errors t times as large, t = excess, -chi^2 / 2 becomes -chi^2 / (2 t^2), and each degree of freedom costs
+  // log t.
   const double times = std::max(kExactNoise, excess);
   const double less = 0.5 * answer->fit->chi_square * (1 - 1 / (times * times));
   return {excess, answer->log_evidence + less - freedom * std::log(times)};

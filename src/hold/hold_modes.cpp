@@ -233,8 +233,8 @@ class RidgeWalk {
       if (log_density < lowest) {
         lowest = log_density;
         lowest_at = found.size();
-        // It rises again: another peak. Nodes end in the valley, and the peak has a ridge of its own.
       } else if (log_density > lowest + kRising) {
+        // It rises again: another peak. Nodes end in the valley, and the peak has a ridge of its own.
         beyond.push_back({fit_.fit(found.back().state), lowest});
         found.resize(lowest_at);
         break;
@@ -375,8 +375,8 @@ Eigen::Vector2d heading_sds(const HoldFit& fit, const HeldState& state) {
   return {std::sqrt(fit.pose_at(state, 0).covariance(2, 2)), std::sqrt(fit.pose_at(state, last).covariance(2, 2))};
 }
 
-/// The part lies differently at one of the ends, by more than both headings' standard deviations, times kApart,
-/// together.
+/// The part lies differently at the first or at the last row, by more than kApart times the sum of both headings'
+/// standard deviations.
 bool are_apart(const HoldFit& fit, const HeldState& one, const HeldState& other) {
   const Eigen::Vector2d sds = heading_sds(fit, one) + heading_sds(fit, other);
   return (turned_at_ends(one, other).array() > kApart * sds.array()).any();

@@ -44,7 +44,7 @@ std::vector<double> HoldFit::step_costs(const Placed& from, const std::vector<Pa
   std::vector<double> shares;
   double sum = 0;
   for (const PathPose& one : to) {
-    // A heavy tail: a long step costs 2 log of its length over the scale, so that a true jump is not excluded.
+    // A heavy tail: a long step costs about 4 log of its length over the scale, so that a true jump is not excluded.
     const double scale = std::hypot(step, from.heading_sd, one.placed.heading_sd);
     const double turned = turned_between(from, one.placed) / std::max(scale, std::numeric_limits<double>::min());
     shares.push_back(1 / (1 + turned * turned));

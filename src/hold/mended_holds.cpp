@@ -233,7 +233,6 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
       what.factor = scale.factor;
       what.unit = scale.from;
       what.into = scale.to;
-      // log_stretch: two columns of each row.
       HoldProblem without = mended(problem, whose, [&](FingerRows& rows) { times(rows, centre, scale.factor); });
       // The farthest that a log's first centre is from the first log's.
       double apart = 0;
@@ -243,8 +242,9 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
         apart = std::max(apart, std::hypot(one.x.front() - first.x.front(), one.y.front() - first.y.front()));
       }
       const double perimeter = problem.part.perimeter();
-      // All centres at one place, or far beyond any part: another unit.
+      // With this unit all centres would be at one place, or far beyond the part.
       if (apart < kLeastApart * perimeter || apart > kMostApart * perimeter) continue;
+      // Two columns of each row.
       all.push_back({std::move(what), std::move(without), 2 * rows_of(problem, whose) * std::log(scale.factor)});
     }
   }

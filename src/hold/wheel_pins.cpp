@@ -25,7 +25,8 @@ namespace {
 
 // A nearest place is settled to this share of the part's diagonal; its distance, to second order in that, is better.
 constexpr double kPinUnit = 1e-4;
-// An offset whose part along the path is more than this share of the distance ends at an end of the path.
+// Where an offset's part along the path is more than this share of the distance, the nearest place is an end of the
+// path.
 constexpr double kNoFoot = 1e-4;
 // Within this share of the diagonal from the path, an offset along it is rounding.
 constexpr double kOnPath = 1e-8;
@@ -71,7 +72,7 @@ NearPin WheelPath::described(const Vec2& point, const touch::PathPlace& place) c
   // A point off the path whose offset has a part along it: the path ends there, where the wheel hits the part.
   const bool is_end = std::abs(beside) > kNoFoot * std::abs(near.distance) + kOnPath * path_.diagonal();
   if (is_end) {
-    // The distance to the end itself, with the sign of the side; it grows along the offset.
+    // The distance to the end itself, with the sign of the side; below 0 it grows against the offset.
     near.distance = std::copysign(off.norm(), near.distance);
     near.away = off / near.distance;
     return near;

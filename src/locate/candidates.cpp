@@ -55,7 +55,7 @@ class Descent {
   /// The blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
   Blocks run(const Blocks* among, SearchCounts& counts) {
     among_ = among;
-    // Start and end both on the first lap, s + L < P.
+    // Start and end both on the first lap: s + L <= P, whole laps taken off L.
     const Stretch all{0, 0, turning_.perimeter()};
     visit(tree_.top(), all, all);
     if (turning_.closed()) {

@@ -74,7 +74,7 @@ PerFinger<double> ends_of(const PerFinger<double>& at, const Reading& reading) {
   return ends;
 }
 
-/// The least slack of all intervals, and where it is reached.
+/// How far intervals are from having a tangent in common, radians.
 struct CornerFit {
   double residual = std::numeric_limits<double>::infinity();
   Interval start;  // the tangents at the start that have it

@@ -89,9 +89,9 @@ void require_enough(std::span<const Reading> readings, const LocateOptions& opti
   }
 }
 
-/// Marks a search as incomplete that counts an odd number of crossings: a smooth closed part's f is continuous and
-/// periodic, so it crosses 0 evenly often, and so do two closed plane curves. Tells nothing where a placement is no
-/// single crossing, of open parts, with corners, or with more equations than unknowns.
+/// Marks a search as incomplete if it counts an odd number of crossings. A smooth closed part's f is continuous and
+/// periodic, so it crosses 0 an even number of times, and so do two closed plane curves. The test is left out where a
+/// placement is not one single crossing, for open parts, for parts with corners, and with more equations than unknowns.
 void check_parity(const ContactEquations& question, Search& search) {
   const Part& part = question.part;
   if (!part.closed() || !part.corners().empty() || question.rows() != question.fingers()) return;
@@ -103,7 +103,7 @@ void check_parity(const ContactEquations& question, Search& search) {
       });
   if (!all_cross || search.placements.size() % 2 == 0) return;
   search.status = Status::incomplete;
-  // One is missing or one too many, it is not known where: the whole boundary is named.
+  // One is missing or one is too many, and it is not known where: the whole boundary is unresolved.
   search.unresolved.push_back(PerFinger<Interval>::of(question.fingers(), {0, part.perimeter()}));
 }
 

@@ -307,7 +307,7 @@ void PlacementMaker::describe_corner(const FoundSet& found, Placement& placement
   const std::size_t fingers = question_.fingers();
   placement.error = kRootLength * question_.part.perimeter();
   placement.pivot = pivots_at(question_, found.start, placement.end);
-  // The tangent of a pivot: the middle of those that fit, in (-pi, pi].
+  // The tangent of a pivot: the middle of those that fit, in [-pi, pi].
   if (fingers == 1) placement.tangent = std::remainder((*placement.pivot)[0].start.middle(), kFullTurn);
   placement.sensitivity = {PerFinger<ShortList<double>>::of(fingers),
                            PerFinger<ShortList<PerFinger<double>>>::of(fingers), PerFinger<double>::of(fingers)};

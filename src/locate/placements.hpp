@@ -32,7 +32,7 @@ class PlacementMaker {
   /// The part and the readings of the question must outlive it.
   explicit PlacementMaker(const ContactEquations& question) : question_(question) {}
 
-  /// Fills in what the search alone knows of a placement.
+  /// Fills in all that the search knows of a placement. What noise tells, such as its probability, stays unset.
   void make(FoundSet&& found, Placement& placement) const;
   /// The most frequent set, made directly: of one finger and one reading, one simple root that the search has a sample
   /// of. `panel`: that the root is on or next to, 0 where that is not known.
@@ -42,7 +42,7 @@ class PlacementMaker {
  private:
   /// Start and end in [0, P), points and tangents there.
   void place(const PerFinger<double>& start, std::size_t likely_panel, Placement& placement) const;
-  //// The residual, then error and sensitivity: of slopes, and (`describe_corner`) where a corner holds a finger.
+  /// The residual, then error and sensitivity: of slopes, and (`describe_corner`) where a corner holds a finger.
   void describe_contacts(const PerFinger<double>& start, Placement& placement) const;
   void describe_corner(const FoundSet& found, Placement& placement) const;
 

@@ -86,8 +86,8 @@ Bounds value_bounds(const ResidualSample& lo, const ResidualSample& hi, const Bo
           (slope.most * hi.value - slope.least * lo.value - scale) / span};
 }
 
-/// The sign of f'' = kappa'(s + L) - kappa'(s) where the spirals' trends settle it: one curvature rises, the other one
-/// does not, or the other way round. 0: not known.
+/// The sign of f'' = kappa'(s + L) - kappa'(s) where the spirals' trends settle it. 1: kappa does not fall at the end
+/// and does not rise at the start, so f'' >= 0. -1: the other way round. 0: not known.
 int bend_by_trends(const SpiralPair& pair) {
   if (pair.end.trend >= 0 && pair.start.trend <= 0) return 1;
   if (pair.end.trend <= 0 && pair.start.trend >= 0) return -1;
@@ -220,7 +220,7 @@ void RootSearch::decide_by_polynomial(const SpiralPair& pair, const SampledRange
     if (k > 1) slope_reach += order * size;
     if (k > 2) bend_reach += order * (order - 1) * size;
   }
-  // f keeps away from 0.
+  // |f| stays above the tolerance.
   if (std::abs(f[0]) > tolerance_ + reach) return;
   // |f_1| is more than all else can change f' by: f' has one sign.
   if (std::abs(f[1]) > slope_reach) {
@@ -257,7 +257,7 @@ void RootSearch::decide_bent(const SpiralPair& pair, const SampledRange& range) 
   const bool turns = (lo.slope() < 0) != (hi.slope() < 0);
   const bool lo_far = std::abs(lo.value) > tolerance_;
   const bool hi_far = std::abs(hi.value) > tolerance_;
-  // From above the tolerance to below it: convex, so it crosses once and does not come back.
+  // Beyond the tolerance at both ends, on opposite sides: f is convex, so it crosses 0 once.
   const bool crosses_once = lo_far && hi_far && (lo.value < 0) != (hi.value < 0);
   if (!turns || crosses_once) {
     take_monotone(pair, lo, hi);

@@ -237,8 +237,8 @@ void look_at_start(const ContactEquations& question, const Corner& corner, doubl
   findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
 }
 
-/// Examines each convex corner on the stretches as a first contact. The sweep takes
-/// the two limits of Theta there, not the angles in between.
+/// Examines each convex corner on the stretches as a first contact. The sweep takes the two limits of Theta there, not
+/// the angles in between.
 void add_start_corners(const ContactEquations& question, const Stretches& stretches, double tolerance,
                        Findings& findings) {
   const Part& part = question.part;

@@ -45,8 +45,8 @@ Search search_two(const ContactEquations& question, const LocateOptions& options
   RollCurve b(part, equations_of(question, 1), range_b);
   PairFindings findings;
   std::size_t budget = options.budget;
-  // All pairs (s, t), pivots of one contact at a time included; then first contacts at which several contacts of a
-  // finger pivot at once.
+  // All pairs (s, t), with at most one contact of each finger that pivots; then first contacts at which several
+  // contacts of a finger pivot at once.
   PairBoxSearch(a, b, limits, budget, findings).run();
   search_patches(a, b, true, limits, budget, findings);
   search_patches(b, a, false, limits, budget, findings);

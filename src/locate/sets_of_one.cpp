@@ -295,7 +295,7 @@ class SetsOfOne {
     return std::abs(hi - lo) > kTurnAccuracy && std::abs(end.slope()) > slope_noise(end);
   }
 
-  /// A slope of f below this is rounding: kNoSlope times the curvatures that it is the difference of, or times 1 / P.
+  /// A slope of f below this is rounding: kNoSlope times the sum of 1 / P and of both curvatures' sizes.
   double slope_noise(const ResidualSample& at) const {
     return kNoSlope * (std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period_);
   }
@@ -315,7 +315,8 @@ class SetsOfOne {
 
 }  // namespace
 
-/// One placement for each cluster, ordered by start: a cluster across s = 0 may start last and come first.
+/// One placement for each cluster, ordered by start in [0, P). The last cluster may reach across s = 0, and its start
+/// may then be the least: the placements are sorted again.
 std::vector<Placement> make_placements(const ContactEquations& question, Findings found) {
   Clusters clusters = clusters_of(question.part, found.pieces);
   const FoundRoots roots = handed_out(question.part, found.roots, clusters);

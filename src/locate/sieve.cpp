@@ -185,8 +185,8 @@ double least_depth(const Part& part, const Interval& contacts, const Ball& ball)
 /// Decides for one placement after the other whether the fingers can do the whole roll from it.
 class Sieve {
  public:
-  /// The arguments are those of `drop_unreachable`. Lengths are shortened by `length_error` before they are asked
-  /// about, so that only what is surely impossible is.
+  /// The arguments are those of `drop_unreachable`. Each roll is shortened by `length_error` at both ends before it is
+  /// tested, so that only rolls that are surely impossible are dropped.
   Sieve(const Part& part, const PerFinger<Reach>& reach, const std::vector<Reading>& readings,
         const std::vector<Reading>& more, double length_error, bool may_overlap)
       : part_(part), reach_(reach), length_error_(length_error), last_(PerFinger<double>::of(reach.size())) {

@@ -50,7 +50,7 @@ double correlation(const std::vector<double>& values) {
 }
 
 /// The standard deviation of what is not smooth in a column, in its unit; 0 where its differences are not as noise
-/// leaves them: each of the other sign than the one before.
+/// leaves them: mostly of the other sign than the one before.
 double jitter(std::vector<double> values) {
   double weights = 1;  // the sum of the squared binomials: (2m choose m)
   for (int order = 1; order <= kOrder; ++order) {

@@ -99,7 +99,7 @@ RowKind RowReader::read(std::string_view line, LogRow& row) {
   const auto touching =
       std::count_if(columns_.begin(), columns_.end(), [&](const Columns& columns) { return touches(columns); });
   row.time = time();
-  // Not all of them touch: neither is measured.
+  // Not all of them touch: no finger is measured.
   if (static_cast<std::size_t>(touching) < columns_.size()) return RowKind::off;
   row.fingers = PerFinger<FingerCells>::of(columns_.size());
   for (std::size_t k = 0; k < columns_.size(); ++k) row.fingers[k] = cells(columns_[k]);

@@ -111,7 +111,7 @@ class RowReader {
  private:
   enum class Source { unknown, lines, numbers };
 
-  /// Each of these throws InputError with the log's name and the line.
+  /// What is wrong with a row throws InputError, with the log's name.
   void come_from(Source source);
   bool take_header();
   void require_same_columns(const std::optional<double>& time, const std::optional<PerFinger<Touch>>& fingers);

@@ -220,7 +220,8 @@ struct PairedStream::State {
 
  private:
   void start();
-  /// By number, by time; takes both first rows as one. `slack`: how far times of one instant may differ, seconds.
+  /// match_fronts: without times. match_by_time: with times. take_fronts: both first rows become one row of two
+  /// fingers. slack: how far times of one instant may differ, seconds.
   void match_fronts();
   void match_by_time();
   void take_fronts();
@@ -345,7 +346,6 @@ void PairedStream::State::take_fronts() {
     found_.push_back(rolls.off());
     return;
   }
-  // Time and line are those of the first log.
   LogRow both = a.row;
   both.fingers = PerFinger<FingerCells>(a.row.fingers[0], b.row.fingers[0]);
   const PerFinger<std::size_t> lines(a.row.line, b.row.line);

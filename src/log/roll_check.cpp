@@ -172,8 +172,8 @@ std::string RollCheck::text(std::size_t finger, const Step& step) const {
                      step.length, step.turn / kDegree, step.line_before);
 }
 
-/// Rules 1 and 2: what is beyond the ends of the outline, or turns more than it does anywhere. These hold for rows
-/// however far apart.
+/// Rules 1 and 2: what goes farther than an open outline is long, or turns more than the part does over such a length.
+/// These hold for rows however far apart.
 std::optional<RollCheck::Jump> RollCheck::impossible(const PerFinger<Step>& steps) const {
   const double perimeter = part_.perimeter();
   double most = 0;
@@ -236,7 +236,8 @@ bool RollCheck::is_explained(const PerFinger<Step>& steps) const {
 
 /// By how much the part may have turned, radians, so that this finger's step is one along it. Theta of stretches of
 /// about this length turns by some angle in `turns`; what the finger saw beyond that the part turned by itself. Empty:
-/// a lap or more, which rule 3 does not take for a stretch. Two intervals where the length's sign is within its error.
+/// more than a lap, which rule 3 does not take for a stretch. Two intervals where the length's sign is within its
+/// error.
 std::vector<Interval> RollCheck::part_turns(std::size_t finger, const Step& step) const {
   const StepError& error = error_[finger];
   const double length = std::abs(step.length);

@@ -69,7 +69,8 @@ std::vector<double> steps_to(const std::vector<double>& sums) {
 
 }  // namespace
 
-/// A log of increments that is written has to give the same rows when it is read, to the bit.
+/// A log of increments that is written has to give the same rows when it is read: to the bit where the increments are
+/// those that were read, else to the rounding of a step.
 Increments increments_of(const FingerRows& rows) {
   if (add_up(rows.distance, rows.dturn, rows)) return {rows.distance, rows.dturn};
   return {steps_to(rows.length), steps_to(rows.turn)};  // rows made or changed without them

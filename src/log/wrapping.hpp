@@ -47,7 +47,7 @@ class GrowingAngle {
   Interval range_;            // of all angles so far, as written
   std::size_t count_ = 0;     // of them
   double last_ = 0;           // as written
-  bool was_far_ = false;      // a step over more than half a turn that is no short one either if it was wrapped
+  bool was_far_ = false;      // there was a far step that is long (kNearRows) even if it is taken back
   double turns_ = 0;          // whole ones that were wrapped away, if the column is wrapped
   double before_ = 0;         // the last but one
 };

@@ -161,7 +161,7 @@ bool round_with_t_first(StartsOfBoth& at, const Correspondence& way) {
 /// first by its inverse. What an advance leaves is as in Lemma 2.
 double shrinking(const StartsOfBoth& at, const Correspondence& way, bool s_first) {
   const Correspondence::Rates rates = way.rates(at);
-  // G' / F' or F' / G': at most 1 in the right order, 1 at a double pair.
+  // G' / F' or F' / G'. In the right order it is at most 1 at the limit, and 1 at a double pair.
   return s_first ? rates.phi_4 / rates.phi_2 : rates.phi_2 / rates.phi_4;
 }
 

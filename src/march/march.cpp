@@ -30,7 +30,7 @@ constexpr double kWholeLoopIntegral = 1e-11;
 /// The smallest reset that is accepted, as a part of P: a few units in the last place of s.
 constexpr double kLeastReset = 1e-15;
 
-/// Throws InputError for an option out of range. A reset below the limit is allowed here: finds then repeat, which
+/// Throws InputError for an option out of range. A reset below the limit is allowed here: finds may then repeat, which
 /// Result::found_again counts.
 void check(const Options& options) {
   const auto expect = [](bool good, const char* what, double found) {
@@ -154,7 +154,6 @@ March::March(const Outline& outline, const Density& density, const Options& opti
   data_ = std::make_shared<const Data>(outline, density, options);
 }
 
-/// Closed and open outlines differ in how L is reduced only.
 Result March::segments(double length, double integral) const {
   if (!std::isfinite(length) || !std::isfinite(integral)) {
     throw InputError(fmt::format("march: expected finite numbers, found length {} and integral {}", length, integral));

@@ -202,7 +202,7 @@ Partition divide(const PartitionTools& tools, const Segments& segments, Tally& e
       // phi' has one sign between two neighbouring stationary points: its sign half-way is that of the interval.
       partition.intervals.back().trend = trends(at);
     }
-    // The end of interval i - 1 and the beginning of interval i: one copy for both.
+    // The end of interval i - 1 and the beginning of interval i: moved to once, copied to both.
     at.move_to(ends[i]);
     if (i > 0) partition.intervals.back().hi = at;
     if (i + 1 < ends.size()) partition.intervals.push_back({at, at, {}});

@@ -298,7 +298,8 @@ void Walker::previous_step() {
 
 void Walker::move_to_length(double target) {
   const long before = net_steps_;
-  // Lengths grow along the path, so that one of the two loops does nothing. After them the target lies on this step.
+  // Lengths grow along the path, so that one of the two loops does nothing. After them the target lies on this step,
+  // or beyond the end of an open outline.
   while (target > at_step_end().length && !last_step()) next_step();
   while (target < position_.before.length && !first_step()) previous_step();
   position_ = land_on_length(*path_, *tally_, position_, target, net_steps_ != before);

@@ -128,7 +128,7 @@ class Rectangle {
     return true;
   }
 
-  /// A pair at (x, w), (y, z) or at a beginning: its error comes from distance_of_residuals alone.
+  /// A pair at an end of the way, (x, w) or (y, z): its error comes from distance_of_residuals alone.
   void note_boundary(const StartsOfBoth& place) { note(place, {Approach::End::limit, 0, 0, 0}, PairFound::boundary); }
 
   /// Adds a pair. Within a rectangle only the last one can be the same; finds of other rectangles are merged later

@@ -63,7 +63,7 @@ class Finder {
     for (std::size_t i = 0; i < values.size(); ++i) {
       look_beside(curve, i);
       const int sign = sign_at(values, i);
-      // An exact zero among the samples: the next sample with a sign tells whether the sign changes there.
+      // A sample is 0, at a joint to rounding: the next sample with a sign tells whether the sign changes there.
       if (sign == 0) continue;
       if (first_sign_ == 0) first_sign_ = sign;
       if (last_sign_ == -sign) {
@@ -83,7 +83,7 @@ class Finder {
     const Sample& before = values[i - 1];
     const Sample& after = values[i + 1];
     const int sign = sign_of(before.density);
-    // Samples of different signs are find_on's; a joint's zero sample tells nothing here.
+    // Different signs are for find_on; beside a sample that is exactly 0 nothing can be told here.
     if (sign == 0 || sign_of(after.density) != sign || sign_of(values[i].density) == -sign) return;
     const double least = std::fabs(values[i].density);
     // Not the least of the three. One of both comparisons is strict: of two equal samples one is looked at.

@@ -297,7 +297,7 @@ Bezier::Bezier(std::vector<Vec2> points, std::vector<double> weights)
   }
 }
 
-/// Without weights one scheme of one degree less.
+/// Without weights the control points of the first derivative alone are enough.
 Vec2 Bezier::velocity(double u) const {
   return weights_.empty() ? de_casteljau(slopes_.data(), points_.size() - 1, u) : jet(u).first;
 }
@@ -430,7 +430,6 @@ std::vector<Curve> nurbs(int degree, const std::vector<double>& knots, const std
     for (std::size_t j = span - p; j <= span; ++j) row.push_back(lifted(points[j], weights.empty() ? 1 : weights[j]));
     std::vector<Vec2> own_points;
     std::vector<double> own_weights;
-    // In turn k the first k arguments are hi, the others lo.
     std::vector<double> arguments(p, lo);
     // Control point k is the blossom's value with k arguments at hi and the others at lo.
     for (std::size_t k = 0; k <= p; ++k) {

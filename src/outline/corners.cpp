@@ -55,7 +55,7 @@ bool ChordTurns::goes_on(std::size_t k, double least) const {
     std::size_t neighbour = step(k);
     std::size_t steps = 0;
     while (std::abs(at(neighbour)) >= least && ++steps < points_.size()) neighbour = step(neighbour);
-    // It turns the same way, and not by much less.
+    // It turns the same way, by at least kNeighbourShare of the turn here.
     return steps < points_.size() && at(neighbour) * at(k) > 0 &&
            std::abs(at(neighbour)) >= kNeighbourShare * std::abs(at(k));
   };
@@ -92,7 +92,8 @@ std::vector<std::size_t> corners_of_points(const std::vector<Vec2>& points, bool
 
 namespace {
 
-/// Of an arm with more points than this only every second, third, ... one is taken: the direction is good enough then.
+/// Of an arm with twice as many points only every second one is taken, with three times as many every third, and so on:
+/// the direction is good enough then.
 constexpr std::size_t kArmPoints = 48;
 
 /// The points on one side of a point.
@@ -101,7 +102,7 @@ struct ScanArm {
   std::size_t count = 0;          // how many points it reaches over
 };
 
-/// Finds the corners of a noisy scan. Each point costs its arms: at most kArmPoints points or so on either side.
+/// Finds the corners of a noisy scan. Each point costs its arms: fewer than about 2 kArmPoints points on either side.
 class ScanCorners {
  public:
   ScanCorners(const std::vector<Vec2>& points, bool closed, double reach)

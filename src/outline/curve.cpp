@@ -45,8 +45,8 @@ namespace {
 /// What the record of a reversed curve has before its kind.
 constexpr std::string_view kReversedPrefix = "reversed ";
 
-/// The curve seen backwards: c(lo + hi - u) over the same domain, so that derivatives of odd order change their sign
-/// and kappa does.
+/// The curve seen backwards: c(lo + hi - u) over the same domain. Derivatives of odd order change their sign, and so
+/// does kappa.
 struct Reversed {
   Curve original;
 
@@ -243,7 +243,7 @@ Jet turned_jet(const Vec2& centre, const Vec2& start, const Vec2& side, double u
   return {centre + spoke, first, -spoke, -first};
 }
 
-/// Throws InputError: a sweep of 0, beyond a full turn, or not a number.
+/// Throws InputError: a sweep of 0, beyond a full turn, or not a number; or a `from` that is not finite.
 void require_sweep(const char* what, double from, double sweep) {
   const double angle = std::abs(sweep);
   if (angle > 0 && angle <= kFullTurn && std::isfinite(from)) return;
@@ -275,7 +275,8 @@ Vec2 Arc::velocity(double u) const { return turned_velocity(start_, side_, u); }
 
 Jet Arc::jet(double u) const { return turned_jet(centre_, start_, side_, u); }
 
-/// cos(from + u) major + sin(from + u) minor = cos(u) start + sin(u) side; so start and side are conjugate half axes.
+/// cos(from + u) major + sin(from + u) minor = cos(u) start + sin(u) side, with from - u for a sweep below 0. So start
+/// and side are conjugate half axes.
 EllipticArc::EllipticArc(const Vec2& centre, const Vec2& major, const Vec2& minor, double from, double sweep)
     : centre_(centre), angle_(std::abs(sweep)), major_(major), minor_(minor), from_(from), sweep_(sweep) {
   // The half axes' cross product is 0 where they are parallel or one has no length.

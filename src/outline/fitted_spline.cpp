@@ -84,8 +84,8 @@ std::size_t FittedSpline::coefficient(long index) const {
   return static_cast<std::size_t>(rest < 0 ? rest + count : rest);
 }
 
-/// The values at t of the four B-splines that are not zero on the span: Cox and de Boor's recurrence. They are above 0
-/// or 0, and their sum is 1.
+/// The values at t of the four B-splines that are not zero on the span: Cox and de Boor's recurrence. None is below 0
+/// for t on the span, and their sum is 1.
 FittedSpline::Weights FittedSpline::basis(std::size_t span, double t) const {
   const long j = last_knot_[span];
   Weights n = {1, 0, 0, 0};

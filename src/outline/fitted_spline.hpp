@@ -36,7 +36,8 @@ class FittedSpline {
  private:
   using Weights = std::array<double, 4>;
 
-  /// Knot number `index` of all as often as they count: closed, any number, on later laps a period on; open, clamped.
+  /// Number `index` of `repeated_`. Closed: any index, on another lap whole periods further on. Open: an index beyond
+  /// an end gives that end.
   double knot(long index) const;
   /// The control point that B-spline number `index` belongs to: closed, cyclic.
   std::size_t coefficient(long index) const;

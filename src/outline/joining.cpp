@@ -56,7 +56,8 @@ bool is_line(const Curve& curve) {
 
 }  // namespace
 
-/// docs/files.md, "Loops": what decides where a curve goes. The area is half the integral of (c - front) x c'.
+/// The numbers by which curves are joined and compared (docs/files.md, "Loops"). Twice the area is the integral of
+/// (c - front) x c'.
 CurveMeasure measure(const Curve& curve) {
   const Interval domain = curve.domain();
   CurveMeasure result;
@@ -96,9 +97,8 @@ CurveMeasure measure(const Curve& curve) {
 bool Polygon::contains(const Vec2& point) const {
   if (!box.contains(point)) return false;
   // Each side that crosses the ray from the point to the right changes between inside and outside. A side holds its
-  // lower end only, so that a corner on the ray counts once or twice, as it should.
+  // lower end only: a corner on the ray counts once where the boundary crosses the ray, else twice or not at all.
   bool inside = false;
-  // [first, last) of `points` are those of one square.
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec2& a = points[k];
     const Vec2& b = points[(k + 1) % points.size()];

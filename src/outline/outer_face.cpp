@@ -191,7 +191,7 @@ class OuterFace {
   /// On the way through a leftmost point: then it is counter-clockwise.
   static bool turns_left(const Vec2& before, const Vec2& point, const Vec2& after) {
     const double turn = cross(point - before, after - point);
-    // Straight there, the edge is vertical: forward is downwards.
+    // Straight there, the edge is vertical: forward must be downwards.
     return turn != 0 ? turn > 0 : after.y() < before.y();
   }
 

@@ -277,7 +277,7 @@ class Checker {
 
 std::vector<std::string> check(const Outline& outline, int samples) { return Checker(outline, samples).run(); }
 
-/// Each curve backwards, in the opposite order. Everything else is copied.
+/// Each curve backwards, in the opposite order; `reversed` changes. Everything else is copied.
 Outline reversed(const Outline& outline) {
   Outline result;
   result.name = outline.name;

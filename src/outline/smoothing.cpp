@@ -217,8 +217,8 @@ class Smoother {
     return false;
   }
 
-  /// Few spans to begin with: one between two corners, two where a closed scan has few, kFirstSpans on a closed one
-  /// without any, as a closed spline needs several.
+  /// Few spans to begin with: one between two corners, or two where a closed scan has at most two stretches between
+  /// corners; kFirstSpans on a closed one without corners, as a closed spline needs several.
   void lay_first_knots(const Course& course) {
     knots_ = {{0}, {0}, closed_};
     std::vector<double> stops = course.corners;
@@ -321,9 +321,8 @@ class Smoother {
     return best;
   }
 
-  /// False when there is nothing left to split.
-  /// Halves the spans that are off by more than the tolerance and by at least half of the worst, if they have points
-  /// enough.
+  /// Halves the spans that are off by at least the tolerance and by at least half of the worst, if they have points
+  /// enough. False when there is nothing left to split.
   bool split(const Misfit& misfit) {
     double worst = 0;  // of those that have enough points
     for (std::size_t span = 0; span < knots_.spans(); ++span) {

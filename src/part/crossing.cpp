@@ -20,8 +20,8 @@
 namespace rollfix {
 namespace {
 
-// Proof: projected on the tangent in the middle of its range of directions, such a stretch always moves forwards.
-// A stretch whose tangent turns by less than half a turn in all, corners included, can't meet itself.
+// A stretch whose tangent turns by less than half a turn in all, corners included, can't meet itself: projected on the
+// direction in the middle of its tangents' range, it always moves forwards.
 constexpr double kSimpleTurn = std::numbers::pi * (1 - 1e-9);
 // Leaves turn by no more than this on average, so that a chord is close to its arc.
 constexpr double kCrossingLeafTurn = 0.7;
@@ -95,8 +95,8 @@ class CrossingSearch {
     return {from.s, to.s, from.point, to.point, from.turn};
   }
 
-  /// Cuts the boundary into arcs, in order: at the ends of spirals and panels, and where more than kCrossingLeafTurn
-  /// would be turned. A corner belongs to the arc that starts there.
+  /// Cuts the boundary into arcs, in order: at the ends of spirals and panels, and in between into equal lengths that
+  /// turn by kCrossingLeafTurn at most on average. A corner belongs to the arc that starts there.
   void collect_arcs() {
     const std::vector<Spiral>& spirals = part_.turning().spirals();
     const std::vector<Panel>& panels = part_.turning().panels();
@@ -226,8 +226,8 @@ class CrossingSearch {
     const double middle = 0.5 * (longer.lo + longer.hi);
     const LeafArc head = part_of(longer, longer.lo, middle);
     const LeafArc tail = part_of(longer, middle, longer.hi);
-    // A half is a neighbour of the other arc only on its own side: the head is no longer next to what follows the first
-    // arc, the tail no longer next to what comes before it.
+    // A half is a neighbour of the other arc only on its own side: the head is no longer next to what follows the
+    // halved arc, the tail no longer next to what comes before it.
     if (split_one) {
       meet(head, two, {-1, joint.after_second});
       meet(tail, two, {joint.after_first, -1});

@@ -244,7 +244,7 @@ Vec2 PartAccess::point(const Part& part, std::size_t panel_index, double base) {
   return curve.position(std::min(std::max(u, domain.lo), domain.hi));
 }
 
-/// The panel that was found last is tried first: places asked for in a row mostly share it.
+/// `likely_panel`, the caller's guess, is tried first.
 Touched PartAccess::contact(const Part& part, double base, std::size_t likely_panel) {
   const TurningFunction& turning = part.turning();
   const Panel& likely = turning.panels()[likely_panel];
@@ -304,7 +304,7 @@ std::vector<double> find_inflections(const TurningFunction& turning) {
 std::vector<double> find_vertices(const TurningFunction& turning, const std::vector<Corner>& corners) {
   const std::vector<Spiral>& spirals = turning.spirals();
   // Whether spiral k starts at a corner, or with a curvature that differs from the one before by more than rounding:
-  // relative to the larger, and to a turn over the whole perimeter.
+  // relative to the larger, and to 1 / P.
   const auto jumps = [&](std::size_t k) {
     const double s = spirals[k].lo;
     const auto next = std::lower_bound(corners.begin(), corners.end(), s,

@@ -166,7 +166,8 @@ std::vector<std::int32_t> ReachSearch::left_of(const Stance& stance, const std::
     if (found.most <= most_ + doubt_) continue;
     if (!safe) safe = safe_stretch(tree_, curvature_, slack_, stance);
     if (is_inside(node, *safe)) continue;
-    // What is left over is left to smaller stances, where the stance's own size is what keeps the bound wide.
+    // A single stretch, or one whose bound is wide by the stance's size more than by its own, is left to smaller
+    // stances.
     if (node.is_single() || found.from_stretch < found.from_stance) {
       left.push_back(index);
     } else {

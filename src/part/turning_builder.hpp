@@ -47,8 +47,8 @@ struct Parametrization {
 };
 
 /// Builds the turning function of an outline, curve by curve: in the constructor, after which the three public members
-/// are complete and are moved out by Part. Throws InputError with the place: no curve, no size, a gap between curves, a
-/// cusp, or a curve that no number of panels resolves.
+/// are complete and are moved out by Part. Throws InputError: no curve, no size, and, with the place, a gap between
+/// curves, a cusp, or a curve that too many panels would be needed for.
 class TurningFunctionBuilder {
  public:
   explicit TurningFunctionBuilder(const Outline& outline);

@@ -127,7 +127,7 @@ constexpr double kNoShare = 8e-16;
 
 }  // namespace
 
-/// Horner's scheme; an empty piece cannot be.
+/// Horner's scheme; every piece has at least one coefficient.
 double Parametrization::parameter(std::size_t panel, double x) const {
   const Piece& piece = pieces[panel];
   double sum = 0;
@@ -209,8 +209,9 @@ void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint3
 /// A scan: its panels are so many that memory decides, and so short that few powers count.
 bool TurningFunctionBuilder::is_dense() const { return outline_.curves.size() >= kManyCurves; }
 
-/// Powers whose share of Theta, and of kappa times half the panel's length, is below kNoTurn rad are dropped from the
-/// end. The number of powers is filled up to a multiple of kPanelBlock, as the evaluation takes four at a time.
+/// Of a dense outline the last powers are dropped whose share of Theta, and of kappa times half the panel's length, is
+/// at most kNoTurn rad. The number of powers is filled up to a multiple of kPanelBlock: the evaluation takes that many
+/// at a time.
 void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, Panel& panel) {
   auto& all = turning.coefficients_;
   panel.offset = static_cast<std::uint32_t>(all.size());

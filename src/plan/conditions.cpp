@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kConditions = 4;  // friction of a, of b, apart, and stable
 constexpr std::size_t kStable = 3;
-// in this order; radians, radians, length, and stability without a unit
+// of these four, in this order: radians, radians, a length, and stability, which has no unit
 using Values = std::array<double, kConditions>;
 constexpr std::size_t kMostInstants = 200000;  // before it is left undecided
 constexpr int kWorstRounds = 12;               // of halving about the worst instant
@@ -195,7 +195,7 @@ SqueezeLook look_at_squeeze(const PlanProblem& problem, const RollPath& path, bo
     // friction of b, and the balance on the wheel, are finger b's; the rest is told of finger a
     const std::size_t finger = c == 1 || c == kStable ? 1 : 0;
     const bool is_friction = conditions[c] == Condition::friction;
-    // `left` is above what is asked for; the value that is reported is above 0.
+    // `left` counts from what is asked for, the value that is reported from 0.
     const double asked = is_friction ? problem.margin : c == kStable ? 0 : problem.clearance;
     const Instant& told = fails ? looker.telling(c) : worst;
     look.looked.push_back(looked_at(conditions[c], finger, worst.left[c] + asked,

@@ -115,7 +115,7 @@ std::vector<LineAngle> headings_of(const PlanProblem& problem, const RollPath& p
   }
   // The force lies along the line: phi turns back what the line turns in the part's frame.
   if (problem.part_rotation || path.squeezed()) return headings;
-  // Only this last choice needs the line's turn, which costs three walks.
+  // Only this last choice needs the line's turn, which costs four walks.
   const std::vector<LineAngle> lines = LineTurn(path).at(lambda);
   for (std::size_t k = 0; k < places.size(); ++k) headings[k] = {-lines[k].turned, -lines[k].rate};
   return headings;

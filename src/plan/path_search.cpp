@@ -168,7 +168,8 @@ std::vector<std::size_t> cheapest(const Grid& grid, double floor, const std::vec
 /// Draws chords of b over the path wherever every margin on them stays comfortable, or as it was: long ones first.
 std::vector<ContactPlace> straightened(const PathQuestion& question, const std::vector<ContactPlace>& a,
                                        std::vector<ContactPlace> b, double floor) {
-  // No margin falls below the floor, nor below what it was by more than the slack, where it was not comfortable.
+  // No margin may fall below the floor. It may fall by the slack; where it was more than comfortable, down to kComfort
+  // less the slack.
   const auto is_good = [&](std::size_t k, const ContactPlace& candidate) {
     const double margin = question.margin(a[k], candidate);
     return margin >= std::max(floor, std::min(question.margin(a[k], b[k]), kComfort) - kSlack * kComfort);
@@ -189,7 +190,7 @@ std::vector<ContactPlace> straightened(const PathQuestion& question, const std::
     std::copy(chord.begin() + 1, chord.end() - 1, b.begin() + static_cast<std::ptrdiff_t>(from) + 1);
     return true;
   };
-  // From the whole path down to two nodes, each stride at overlapping places: corners are cut from coarse to fine.
+  // From the whole path down to two steps, each stride at overlapping places: corners are cut from coarse to fine.
   for (std::size_t stride = a.size() - 1; stride > 1; stride /= 2) {
     for (std::size_t from = 0; from + stride < a.size(); from += std::max<std::size_t>(1, stride / 4)) {
       draw(from, from + stride);
@@ -242,7 +243,7 @@ FoundPath widest_path(const PathQuestion& question) {
   // What the path keeps: the best margin, less a little for a smoother path; beyond kComfort nothing is asked.
   const double floor = std::min(best, kComfort) - kSlack * std::abs(std::min(best, kComfort));
   for (std::size_t j = 0; j < worst.size(); ++j) {
-    // Every row is an end, or the goal's alone.
+    // Ends are the rows that keep the floor; with a goal only the goal's row.
     ends[j] = worst[j] >= floor && (!question.goal_b || grid.of_b[j].turned == *question.goal_b);
   }
   std::vector<ContactPlace> b;

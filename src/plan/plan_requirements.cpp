@@ -30,7 +30,7 @@ void require_finger(const PlanProblem& problem, std::size_t which) {
   require_plan_number(finger.start, "start of " + name, false);
   require_plan_number(finger.length, "length of " + name, false);
   require_plan_number(finger.psi, "orientation of " + name, false);
-  // 0 is allowed; without a friction nothing slips.
+  // 0 is allowed. Without a friction any angle below a right one holds.
   if (finger.friction && !(std::isfinite(*finger.friction) && *finger.friction >= 0)) {
     throw InputError(fmt::format("expected a friction of {} of at least 0, found {}", name, *finger.friction));
   }

@@ -66,7 +66,7 @@ class ContactWay {
   double start_;
   /// against the part
   double psi_;
-  /// of the first contact on the finger; none of a disk
+  /// of the first contact on the finger; a disk does not need it
   std::optional<double> u_;
   std::unique_ptr<Track> track_;
   Motion from_start_;  // at 1 rad/s: time is x

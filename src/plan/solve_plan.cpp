@@ -47,7 +47,6 @@ auto about(const PlanProblem& problem, std::size_t which, const Action& action) 
 
 /// Where each finger can be on the part; nothing of a finger with an outline, whose reach is not known.
 std::vector<std::optional<Reach>> reaches_of(const PlanProblem& problem) {
-  // of each finger, as reaches_of
   std::vector<std::optional<Reach>> reaches;
   for (const PlanFinger& finger : problem.fingers) {
     reaches.push_back(has_reach(finger.finger) ? std::optional<Reach>(reach_of(problem.part, finger.finger))
@@ -80,7 +79,7 @@ Interval range_of(const PlanProblem& problem, const ContactWay& way, const std::
 
 /// Whether the fingers press apart, as in a hole: the line through the contacts then leaves the material.
 bool presses_apart(const ContactPlace& a, const ContactPlace& b) {
-  // Both angles beyond a right angle mean that the inward normals point away from the other contact.
+  // A cosine below 0: that inward normal points away from the other contact. Their sum decides.
   const Squeeze squeeze = squeeze_of(a, b, false);
   return std::cos(squeeze.at_a) + std::cos(squeeze.at_b) < 0;
 }
@@ -264,7 +263,7 @@ double balance_at(const PlanProblem& problem, const ContactWay& a, const Contact
       name_of_finger(problem, 0), *problem.fingers[0].start);
   if (!problem.fingers[1].start) {
     if (good.empty()) throw InputError(none);
-    // More than one: the reader has to choose, from the list.
+    // More than one: the user has to choose, from the list.
     if (good.size() == 1) return good.front();
     throw InputError(
         fmt::format("the wheel can be in balance at several places, t = {}: give one as its start", names));

@@ -96,7 +96,7 @@ Interval finger_curvatures(const ContactWay& way, const ContactPlace& one, const
   return {curvature, curvature};
 }
 
-/// w
+/// w of squeeze.hpp
 double share_of(double bend, double distance, double radius) { return 1 / (1 + bend * (distance + radius)); }
 
 /// The least b: it falls with kappa.
@@ -129,7 +129,7 @@ std::optional<double> gap_between(const Finger& finger_a, const ContactPlace& a,
   if (finger_a.is_disk() && finger_b.is_jaw()) return of_disk_and_jaw(b, a, finger_a.disk()->radius);
   const ConvexBody of_a(finger_a, frame_at(a));
   const ConvexBody of_b(finger_b, frame_at(b));
-  // A jaw and an outline: as deep as the outline is beyond the jaw's line, below 0 apart.
+  // A jaw and an outline: minus how deep the outline is beyond the jaw's line.
   if (finger_a.is_jaw()) return -depth_of_overlap(frame_at(a), of_b);
   if (finger_b.is_jaw()) return -depth_of_overlap(frame_at(b), of_a);
   // A lower bound of the distance, from one direction alone: mostly that is enough.

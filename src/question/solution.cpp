@@ -47,7 +47,6 @@ const Verdict& Solution::verdict() const {
   return visit([](const auto& answer) -> const Verdict& { return answer.verdict; });
 }
 std::string Solution::verdict_text() const {
-  // Each kind of answer has its own words.
   return visit([](const auto& answer) { return text_of(answer); });
 }
 std::size_t Solution::count() const {

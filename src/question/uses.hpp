@@ -35,7 +35,8 @@ void require_contacts(const Question& question);
 /// The options that a search has fields for; those that it has not must not be given.
 template <class Searched>
 void hand_over(const Question& question, Searched& problem) {
-  // A field that the problem has is handed over; what is given of the others is refused. These three all searches take.
+  // A field that the problem has is handed over; what is given of the others is refused. Noise, budget and mirror are
+  // taken by all searches.
   const Uses uses(question);
   problem.noise = question.noise;
   problem.budget = question.budget;
@@ -77,7 +78,7 @@ void hand_over(const Question& question, Searched& problem) {
     problem.clear = question.measured.clear;
   else
     uses.refuse(!question.measured.clear.empty(), "clear");
-  // A search that looks for no mistakes needs no message.
+  // A search that looks for no mistakes ignores it.
   if constexpr (requires { problem.diagnose; }) problem.diagnose = question.diagnose;
 }
 

@@ -75,7 +75,7 @@ Walked Walk::solve(double rotation) const {
     return std::pair(track_.rotation(stretch_, s, turning.angle) - rotation,
                      track_.finger_curvature(stretch_, s) + turning.curvature);
   };
-  // as if psi were straight on the stretch
+  // The first guess: as if psi were linear in s on the stretch.
   const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
   const double guess = stretch_.s.lo + share * stretch_.s.width();
   constexpr int kDigits = std::numeric_limits<double>::digits;

@@ -38,7 +38,7 @@ std::vector<double> integrals(const std::function<double(double)>& rate, const s
 
 /// One instant of a roll.
 struct RollState {
-  /// u and psi of that instant, in the part's frame
+  /// u, and psi as seen in the part's frame
   Contact contact;
   double s = 0;
   double angle = 0;  // of the tangent
@@ -87,7 +87,7 @@ class Walk {
 
   const Track& track_;
   double fallen_ = 0;  // over the tiny concave joints of a drawing the finger turns back: by so much psi is behind
-  /// of the stretch that it is on, and that stretch
+  /// the stretch that it is on, and its index
   std::int64_t index_ = 0;
   Stretch stretch_;
   /// psi at its ends

@@ -22,7 +22,8 @@ namespace rollfix {
 
 namespace {
 
-/// e, one per roll, above -1: at -1 nothing would be rolled off.
+/// Slip e of one finger, the same for the whole roll. It has to be above -1: at -1 the contact would not move on the
+/// part. Throws InputError if it is not.
 double draw_slip(const Noise& noise, rolling::NormalNumbers& normal) {
   const double slip = normal.next(noise.slip);
   if (slip > -1) return slip;
@@ -70,9 +71,9 @@ Finger enlarged(const Finger& finger, double factor) {
 /// The roll of a finger with corners: what slips before a corner leaves the part elsewhere when the finger pivots.
 Roll slipping_roll(const Part& part, const Finger& finger, RollPlan plan, double slip) {
   if (slip == 0) return roll(part, finger, plan);
-  // u of the enlarged finger is (1 + e) times that of the true one, along the part as along the finger.
+  // u of the enlarged finger is (1 + e) times u of the true one.
   const double factor = 1 + slip;
-  // the first contact of the plan, or the default: 0, of an open outline its middle
+  // the first contact of the plan, or the default: 0, of an open finger its middle
   const Interval ends = finger.ends();
   plan.u = factor * plan.u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);
   Roll result = roll(part, enlarged(finger, factor), plan);
@@ -89,8 +90,8 @@ Roll slipping_roll(const Part& part, const Finger& finger, RollPlan plan, double
 }
 
 /// What slips leaves the part where it is, and how the normals lie: the finger is rolled off by less, and turned.
-/// Without corners, afterwards: s and phi stay; the finger is rolled off by L / (1 + e), and psi keeps N + psi, so that
-/// the normals still meet.
+/// For fingers without corners, after the roll: s and the part's heading stay. The finger is rolled off by L / (1 + e).
+/// psi changes so that N + psi stays, because the normals still meet.
 void let_slip(FingerRows& rows, const Finger& finger, double slip) {
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
     const Contact before{rows.u[row], rows.psi[row]};
@@ -158,8 +159,8 @@ void require_valid(const Noise& noise) {
   }
 }
 
-/// Variance of what the turn gathers between two instants: radians squared. Without times the angle's noise per lap, of
-/// a log that only says how far it has travelled.
+/// By how much the variance of the turn grows between two instants, radians squared. If drift and walk are both 0, the
+/// rows of a log of lengths and turns (LogKind::travelled) gather angle^2 in each lap, others nothing.
 double drift_variance(const Noise& noise, LogKind kind, double laps, const Interval& seconds) {
   if (noise.drift > 0 || noise.walk > 0) {
     // A bias turns by as much in every second: its variance grows with the square of the time.

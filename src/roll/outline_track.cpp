@@ -267,7 +267,7 @@ std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int 
   set_cell(found, cell);
   // A pivot of the part: no length, and nothing to cut.
   if (found.stretch.is_pivot) return found;
-  // Across a tiny joint of the finger N jumps without a pivot: it is added up, and taken off in fall_between.
+  // Across a tiny joint of the finger N jumps without a pivot. `jump` adds this up, and fall_between counts it.
   if (takes_new_cell && !is_at_corner)
     found.jump += on_finger(piece.stretch, edge).angle - on_finger(found.stretch, edge).angle;
   const Interval on = cell_range(found);

@@ -64,7 +64,7 @@ void require_number(double value, const char* what) {
   if (!std::isfinite(value)) throw InputError(fmt::format("expected a finite {} of a rig, found {}", what, value));
 }
 
-/// Throws InputError for numbers out of range. Whether the pin's motion is possible only following it tells.
+/// Throws InputError for numbers out of range. Whether the pin can move as planned is found only by following it.
 void require_consistent(const RigPlan& plan) {
   if (plan.start.size() != 2) throw InputError("expected two starts of a rig, the jaw's and the wheel's, found one");
   require_number(plan.start[0], "start of the jaw");
@@ -139,8 +139,9 @@ class Course {
   /// What the value has to be at this time.
   Vec2 target(double time) const { return start_value_ + displacement(time); }
 
-  /// Throws InputError where the closure does not say how the part moves: g = 0, where the determinant r g vanishes; of
-  /// a squeezed rig a wheel that is not opposite, or a grip that is not stable.
+  /// Throws InputError where the closure does not say how the part moves: g = 0, where the determinant r g vanishes. Of
+  /// a squeezed rig: a wheel's normal that misses the jaw's contact, a wheel that is not opposite, or a grip that is
+  /// not stable.
   void require_start(const Part& part) {
     const std::string where = places_text();
     // Not squeezed: the determinant r g of the closure must not vanish.
@@ -197,8 +198,8 @@ class Course {
   /// The rig at this time if it can be followed there in one step.
   std::optional<rolling::RigState> try_step(double to) {
     const Vec2 wanted = target(to);
-    // One step of Newton's method from the last row: the prediction. A solution further away than `reach` would be
-    // another way to hold the part.
+    // One step of Newton's method from where the rig is now: the prediction. A solution further away than `reach` would
+    // be another way to hold the part.
     const Vec2 lead = now_.slope.inverse() * (wanted - now_.value);
     const double reach = kNear * lead.norm() + kRigRounding + kFalls * fall_;
     const Vec2 predicted = now_.rotations + lead;
@@ -211,7 +212,7 @@ class Course {
       try {
         const rolling::RigState state = closure_.at(rotations);
         const double off = (state.value - wanted).norm();
-        // Rounding: it gets no closer.
+        // It gets no closer. Whether that is close enough is checked below.
         if (!(off < best)) break;
         best = off;
         found = state;
@@ -327,7 +328,7 @@ class Recorder {
     part.y = origin.y();
     // rolling without slip: L = -r (v - v_0)
     const double v = first_v_ - (state.wheel.s - first_.wheel.s) / plan_.radius;
-    // of the part's tangent at the wheel, in the world; psi has what v does not take: eq. (3)
+    // How far the tangent at the wheel has turned in the world. By eq. (3) that is the change of v plus that of psi.
     const double turned = state.wheel.angle - first_.wheel.angle + part.heading - plan_.pose.heading;
     const Contact on_wheel{v, plan_.psi + turned - (v - first_v_)};
     const Vec2 touched = part.world(part_.point(state.wheel.s));
@@ -338,7 +339,7 @@ class Recorder {
     roll_.pose.push_back(part);
   }
 
-  /// The log. Throws InputError if its rows are so far apart that a reader could not tell whether psi is wrapped.
+  /// The finished roll. Throws InputError if its rows are so far apart that a reader would take u or psi as wrapped.
   Roll roll() {
     for (const FingerRows& rows : roll_.log.fingers) require_readable(rows, roll_.log.name);
     return std::move(roll_);

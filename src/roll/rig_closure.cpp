@@ -35,7 +35,7 @@ Vec2 tangent_to(double angle) { return {std::cos(angle), std::sin(angle)}; }
 Vec2 out_of_part(double angle) { return {std::sin(angle), -std::cos(angle)}; }
 int sign_of(double value) { return value < 0 ? -1 : 1; }
 
-// Into so many equal steps squeezed_places divides the boundary: two zeros of g in one step are missed.
+// squeezed_places divides the boundary into this many equal steps. Two zeros of g in one step are missed.
 constexpr int kSteps = 4000;
 
 /// What a wheel at t, with the tangent just before or after it, says of a jaw at s.
@@ -56,7 +56,8 @@ class Opposite {
     const Turning wheel = part_.turning().at(t);
     const double distance = (part_.point(t) - point_).dot(Vec2(std::sin(wheel.angle), -std::cos(wheel.angle)));
     const double cos_d = std::cos(wheel.angle - jaw_.angle);
-    // The header's condition times d b / dt and kappa(s), with |cos d| = -cos d: docs/rolling.md, "Squeezed".
+    // The condition at the head of this file, times db / dt and kappa(s), with |cos d| = -cos d: docs/rolling.md,
+    // "Squeezed".
     const double hold = -cos_d * (1 + radius_ * wheel.curvature) +
                         (1 - wheel.curvature * distance) * jaw_.curvature * (distance + radius_);
     return distance > 0 && cos_d < 0 && 1 + radius_ * wheel.curvature > 0 && jaw_.curvature > 0 && hold > 0;

@@ -178,11 +178,10 @@ Motion motion_against_part(const Track& track, const FreeFinger& finger, const F
 }
 
 /// Two even motions at once: both last as long as the longer one at the plan's speed, or as the plan says.
-/// How far each finger has to turn against the part is given; both do so evenly, in the same time.
 void share_duration(Motion& a, Motion& b, const FreePlan& plan) {
   const double rotation_a = a.velocity * a.duration;
   const double rotation_b = b.velocity * b.duration;
-  // Of both the one that turns further goes at the plan's speed.
+  // Without a duration, the finger that turns further goes at the plan's speed.
   const double longest = std::max(std::abs(rotation_a), std::abs(rotation_b));
   a.duration = b.duration = plan.duration.value_or(longest / plan.speed);
   a.velocity = rotation_a / a.duration;
@@ -219,7 +218,7 @@ struct Rolling {
   std::vector<RollState> states;
 
   const Track& track() const { return *way; }
-  /// Of the finger at a row, in the part's frame: c.
+  /// c, the finger's centre at a row, in the part's frame.
   Vec2 centre(std::size_t row) const {
     return centre_of(track().finger(), track().part().point(states[row].s), states[row].contact);
   }
@@ -230,7 +229,7 @@ struct Rolling {
 std::vector<Pose> poses_of(const FreePlan& plan, const Rolling& a, const std::vector<double>& times) {
   const std::vector<double> headings = headings_of(plan, times);
   const std::vector<Vec2> moved = displacements(plan.velocity_part ? plan.velocity_part : plan.velocity_a, times);
-  // finger a's, in the world at the start
+  // finger a's centre in the world at the start
   const Vec2 centre = plan.pose.world(a.centre(0));
   std::vector<Pose> poses;
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -341,7 +340,6 @@ Motion plan_motion(const Track& track, const RollPlan& plan) {
   const double start = track.part().closed() ? wrap(plan.start, perimeter).base : plan.start;
   // Before anything is solved, so that an error names the tightest place of the whole way.
   if (plan.distance) track.require_way(start, start + *plan.distance);
-  // At a corner: the side of it on which the roll leaves.
   motion.start = track.place(start, direction_of(plan));
   // One-sided: at a corner Theta on the side on which the roll leaves.
   motion.start_angle = track.turning(track.stretch(motion.start.index), motion.start.s).angle;

@@ -58,7 +58,8 @@ EvenTrack::EvenTrack(const Part& part, const Finger& finger, double u)
 
 /// The knot at this base in [0, P], if there is one.
 std::optional<std::int64_t> EvenTrack::knot_at(double base) const {
-  // Within rounding of a spiral's end is at the knot there. `hi` of the last spiral is knot n, that is knot 0 a lap on.
+  // A place within rounding of a spiral's end is the knot there. The last spiral ends at knot n, which is knot 0 one
+  // lap further on.
   const std::vector<Spiral>& spirals = turning_.spirals();
   const auto k = static_cast<std::int64_t>(turning_.spiral_at(std::min(base, turning_.perimeter())));
   const double near = kLengthAccuracy * turning_.perimeter();
@@ -179,7 +180,7 @@ std::optional<std::int64_t> EvenTrack::next(std::int64_t index, int direction) c
   if (is_pivot(found)) {
     const double turn = corner_turn(knot_before(found));
     if (blocks(turn)) return std::nullopt;
-    // A convex corner is a stretch of its own. At a smooth knot, or a tiny joint, the spiral beyond follows at once.
+    // A convex corner is a stretch of its own. At a smooth knot, or a tiny concave joint, the spiral beyond follows.
     if (turn > 0) return found;
     found += direction;
   }
@@ -193,7 +194,7 @@ std::optional<std::int64_t> EvenTrack::next(std::int64_t index, int direction) c
 /// lap's time at most however far apart the stretches are.
 double EvenTrack::fall_between(std::int64_t from, std::int64_t to) const {
   if (fall_per_lap_ == 0) return 0;
-  // Backwards the falls are climbed.
+  // Backwards each fall counts with the other sign.
   if (to < from) return -fall_between(to, from);
   const auto count = static_cast<std::int64_t>(corner_turns_.size());
   const std::int64_t last = knot_before(to);
@@ -269,7 +270,7 @@ void EvenTrack::require_way(double from, double to) const {
   if (!fits(tightest.curvature)) refuse_tight(tightest);
 }
 
-/// Throws InputError with the place, its curvature, and for a disk the radius -1 / kappa that would just do.
+/// Throws InputError with the place, its curvature, and for a disk -1 / kappa: the radius has to be below that.
 void EvenTrack::refuse_tight(const Tightest& tightest) const {
   const Vec2 point = part().point(tightest.s);
   if (std::isinf(radius_)) {

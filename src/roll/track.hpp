@@ -50,7 +50,7 @@ class Track {
   const Part& part() const { return part_; }
   const Finger& finger() const { return finger_; }
 
-  /// The piece with this index; neighbours have neighbouring indices, growing with s.
+  /// The piece with this index. Indices grow with s; `next` tells which one follows.
   virtual Stretch stretch(std::int64_t index) const = 0;
   /// Theta and kappa of the part at s on this stretch, unwrapped.
   Turning turning(const Stretch& stretch, double s) const;

@@ -173,8 +173,8 @@ double FeltRoll::unsaid_noise() const {
   const bool is_summed = log_.kind == LogKind::increments;
   std::vector<double> differences;
   for (const Reading& reading : readings_) differences.push_back(reading.turn);
-  // Fourth differences: of a smooth curve they are small by the fourth power of the rows' distance. Sums of increments
-  // have independent third differences.
+  // Fourth differences: of a smooth curve they are small by the fourth power of the rows' distance. Of sums of
+  // increments they are third differences of the increments, whose errors are independent.
   for (int k = 0; k < 4; ++k) {
     std::adjacent_difference(differences.begin(), differences.end(), differences.begin());
     differences.erase(differences.begin());

@@ -58,7 +58,7 @@ class FeltRoll {
   Noise noise_;                    // all 0 where none was given: rows are exact
   Rounding rounding_;              // what digits can have moved the last reading by
   std::vector<Reading> readings_;  // in the direction of growing length
-  bool is_backwards_ = false;      // as it was logged
+  bool is_backwards_ = false;      // it was logged the other way
   double radius_ = 1;              // of the finger, length per radian of u; 1 without a finger
   TurningRuns whole_;              // all rows, cut at the corners
 };

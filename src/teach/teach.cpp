@@ -110,7 +110,8 @@ class Teacher {
   /// What the rows' own noise moves the end by: each turns all that follows of a step, but for what others average.
   double gap_sd() const {
     if (!roll_.is_noisy()) return 0;
-    // Row errors turn a random walk of the direction: n independent steps of `step` sd each add up to sqrt(n) step sd.
+    // Each row's error turns one step: the step's end moves sideways by `step` times sd. n independent steps add up to
+    // sqrt(n) step sd.
     const double step = roll_.whole().length() / static_cast<double>(roll_.rows());
     const double rows = std::hypot(roll_.errors().sd * std::sqrt(step * roll_.whole().length()),
                                    std::numbers::sqrt2 * roll_.noise().contact);
@@ -118,8 +119,7 @@ class Teacher {
   }
 
   /// Finds the lap and puts the rows of one lap in `lap_`, later passes laid over it. A roll that does not come back is
-  /// a lap as a whole. To bridge, the end counts as a return only within what `gap_sd` says that
-  /// it moves.
+  /// a lap as a whole. With `bridge` the end counts as a return only within kDeviations times `gap_sd`.
   void take_lap() {
     const double row_sd = roll_.is_noisy() ? roll_.errors().sd : std::max(roll_.how().tolerance, interpolated_);
     const RoundRoll round{

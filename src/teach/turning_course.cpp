@@ -323,7 +323,7 @@ Closure close_gap(TurningCourse& course) {
     const TurningPath path = path_of(course, Vec2::Zero());
     const double length = path.end() - path.s.front();
     const Vec2 gap = path.gap();
-    // Relative to the length, because the position is a sum of about as many rounding errors.
+    // Relative to the length, because the rounding errors of positions grow with it.
     closure.closed = gap.norm() <= kClosed * length;
     if (closure.closed) break;
     // The end moves by the integral of the change times the normal, and the change is the normal times the weights.
@@ -336,8 +336,8 @@ Closure close_gap(TurningCourse& course) {
         moves += (share == 0.5 ? 4.0 : 1.0) * width / 6 * normal * normal.transpose();
       }
     }
-    // M has rank 1 on a straight course: no change along its normal moves the end along it. Then the inverse is not
-    // finite, and the course stays open.
+    // On a straight course M has rank 1: a small change of Theta moves the end only across the course. Then the inverse
+    // is not finite, and the course stays open.
     const Eigen::Vector2d step = moves.inverse() * gap;
     if (!step.allFinite() || (weights + step).norm() > kMostCorrection) return closure;
     weights += step;

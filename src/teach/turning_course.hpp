@@ -86,7 +86,7 @@ void split_at(TurningNodes& nodes, double place);
 /// What closed a course.
 struct Closure {
   bool closed = false;    // the gap is below rounding
-  double correction = 0;  // the largest change of Theta, radians
+  double correction = 0;  // no change of Theta is larger, radians
 };
 
 /// Changes Theta by as little as possible in the mean square so that the path ends where it starts: by

@@ -23,7 +23,7 @@ namespace {
 /// Weighs the third derivative against the rows. It decides where rows are missing; where there are rows it has to move
 /// the curve by less than their tolerance.
 constexpr double kStiffness = 1e-11;
-/// A span with fewer rows is not split: it passes through its only row already.
+/// A span with fewer rows is not split: one row does not tell a bend.
 constexpr std::size_t kLeastRows = 2;
 /// Exact rows are nodes themselves unless a spline does with a span for so many of them.
 constexpr std::size_t kRowsPerSpan = 4;
@@ -145,7 +145,7 @@ void make_monotone(TurningNodes& nodes, bool round) {
       nodes.slope[k] = after;
       continue;
     }
-    // An extreme among the nodes: the true one lies beside it, and any slope is as good as its spline's.
+    // An extreme among the nodes: the true one lies beside it, and the slope stays as it is.
     if (before * after < 0) continue;
     // Fritsch and Carlson: of the chords' sign and at most three times the smaller one. At a chord of slope 0 the slope
     // is 0.

@@ -160,7 +160,7 @@ ScalarRows slopes_of(const TurningRun& run, double sd, double& step) {
       before = k;
     }
   }
-  // Slopes of all passes together, by place. `step` is their median distance.
+  // Slopes of all passes together, by place. `step` is the median distance of neighbouring rows.
   std::sort(slopes.begin(), slopes.end());
   std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
   step = steps[steps.size() / 2];

@@ -30,8 +30,8 @@ constexpr double kContinuum = 12;
 // Headings of extents are rounded, radians.
 constexpr double kHeadingRounding = 1e-12;
 
-/// Residuals with their sign for the normal, the distance for the place. Of a roll with noise they are those of the
-/// node's means.
+/// The residual of the normal has its sign, that of the place is a distance. A roll with noise has those of the means
+/// of its node.
 TouchContact contact_of(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& place) {
   const CentrePoint point = fit.path(touch).at(place);
   const InPart at = fit.in_part(pose, touch);
@@ -50,8 +50,8 @@ TouchContact contact_of(const PoseFit& fit, const Pose& pose, std::size_t touch,
   return contact;
 }
 
-/// Whether arcs leave no heading out.
-/// The arcs of all cells, cut to one turn, swept in order: a gap means that some heading is missing.
+/// Whether the cells' headings leave none out. Their arcs are swept in order from -pi to pi: a gap means that some
+/// heading is missing.
 bool cover_all(const std::vector<Cell>& cells) {
   std::vector<Interval> arcs;
   for (const Cell& cell : cells) {
@@ -172,7 +172,7 @@ TouchContact nearest_contact(const PoseFit& fit, const Pose& pose, std::size_t t
   return contact_of(fit, pose, touch, nearest_place(fit.tree(touch), fit.in_part(pose, touch)).place);
 }
 
-/// Over all places and normals; of a roll with noise its miss in standard deviations, as a share.
+/// Over all places and normals; of a roll with noise its miss, as a share of the standard deviations that it may have.
 double worst_of(const PoseFit& fit, const FittedPose& fitted) {
   double worst = 0;
   for (std::size_t k = 0; k < fitted.places.size(); ++k) {

@@ -15,7 +15,7 @@ namespace rollfix::touch {
 TouchContact nearest_contact(const PoseFit& fit, const Pose& pose, std::size_t touch);
 
 /// The share of its tolerance that the worst residual takes.
-/// At most 1: all of them are within their tolerances.
+/// 1 or less means that all of them are within their tolerances.
 double worst_of(const PoseFit& fit, const FittedPose& fitted);
 
 /// Intervals of x, y and the heading, in radians.

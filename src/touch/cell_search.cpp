@@ -26,7 +26,7 @@ namespace rollfix::touch {
 namespace {
 
 // Headings are rounded, radians.
-// Every test on headings is wider by it, so that rounding drops no cell.
+// Tests by normals are wider by it, so that rounding drops no cell.
 constexpr double kGrain = 1e-12;
 
 // Strips tell more than discs where they are longer than what touches are off by, and where two chords' ends are on
@@ -66,7 +66,7 @@ class Neighbours {
   }
 
   /// Calls `found(i, j)` for neighbouring cells with the same stretch for the first touch.
-  /// Each pair is found twice, once from either side.
+  /// Each pair is found at least once from either side.
   template <class Found>
   void within(const Found& found) const {
     for (const Column& column : columns_) {
@@ -117,7 +117,7 @@ class Neighbours {
       (second(middle).hi < at.lo ? lo : hi) = second(middle).hi < at.lo ? middle + 1 : middle;
     }
     for (std::size_t j = lo; j < column.second && second(j).lo <= at.hi; ++j) try_one(j);
-    // On a closed path the first and the last cell of the column can be neighbours of any.
+    // On a closed path a neighbour across the start is the first or the last cell of the column.
     try_one(column.first);  // across the start
     try_one(column.second - 1);
   }
@@ -240,7 +240,7 @@ CellSearch::Expected CellSearch::expected(const Cell& cell, std::size_t touch) c
   return result;
 }
 
-/// By discs, and by strips. Whether no centre of the node can be where the touch is expected. Discs: the middles are
+/// Whether no centre of the node can be where the touch is expected, by discs and by strips. Discs: the middles are
 /// further apart than both radii and the slack. Strips: the same across either node's own line, where the discs are
 /// wider than the slack.
 bool CellSearch::are_apart(const Around& around, const PathTree::Node& node) {

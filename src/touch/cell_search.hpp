@@ -136,7 +136,7 @@ class UnionFind {
   std::vector<std::vector<std::size_t>> sets();
 
  private:
-  // Of a root itself.
+  // Of a root the root itself.
   std::vector<std::size_t> parent_;
 };
 

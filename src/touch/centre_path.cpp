@@ -233,7 +233,7 @@ Vec2 CentrePath::contact(const PathPlace& place) const {
   return point.centre - radius_ * Vec2(std::sin(point.angle), -std::cos(point.angle));
 }
 
-/// At a corner r times the angle. On a spiral the integral of |1 + r kappa| ds, or where that changes its sign the
+/// At a corner r times the angle. On a spiral the integral of (1 + r kappa) ds, or where that is below 0 anywhere the
 /// bound ds + r |dTheta|.
 double CentrePath::length(const CentreStretch& stretch, const Interval& u) const {
   if (stretch.corner) return radius_ * u.width();

@@ -105,7 +105,7 @@ inline HeadingArc headings_between(VectorBox part, const Vec2& world, double sla
   for (const double ahead : {part.ahead.lo, part.ahead.hi}) {
     for (const double left : {part.left.lo, part.left.hi}) {
       const Vec2 corner = part.vector(ahead, left);
-      // The box is seen under half a turn or more: no cone.
+      // A corner is a quarter of a turn or more off the middle's direction: no cone.
       if (!(middle.dot(corner) > 0)) return {};
       slope = std::max(slope, std::abs(cross(middle, corner)) / middle.dot(corner));
     }

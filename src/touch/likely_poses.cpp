@@ -216,12 +216,12 @@ PosteriorNode node_of(const LikelyPose& one, bool mirrored) {
 
 /// What clear paths leave of poses that only touches were asked about.
 /// If nothing is left, the paths contradict the touch: then all stay.
-std::vector<LikelyPose> left_free(std::vector<LikelyPose> poses, const TouchAnswer& answer) {
+std::vector<LikelyPose> left_free(const std::vector<LikelyPose>& poses, const TouchAnswer& answer) {
   if (answer.clear.empty()) return poses;
   const TouchProblem problem = answer.mirrored ? in_mirror(problem_of(answer)) : problem_of(answer);
   FreeSpace space(problem, measured(problem));
   std::vector<LikelyPose> left;
-  for (LikelyPose& one : poses) {
+  for (LikelyPose one : poses) {
     std::vector<PosteriorNode> node{node_of(one, answer.mirrored)};
     // By the probability that all paths are free; without noise free or not.
     if (answer.noise) {

@@ -77,7 +77,7 @@ double distance_to(const PathTree::Node& node, const Vec2& point) {
 /// Makes the best place known the nearest of all, if any is nearer than `least`. Of a node that holds the place
 /// `known` nothing else is looked at where it has one nearest place.
 /// Branch and bound, the more promising half first. `waiting` has lower bounds of d^2; a node goes where its bound is
-/// no less than the least square known. A node that turns by less than kOneNearest ends in a descent.
+/// no less than the least square known. A node that turns by no more than kOneNearest ends in a descent.
 void look_for_nearer(PathTree& tree, const InPart& touch, double least, const PathPlace* known,
                      std::optional<OnPath>& best) {
   boost::container::small_vector<std::pair<double, std::int32_t>, 64> waiting{{0.0, tree.root()}};
@@ -225,7 +225,7 @@ PartDistance::PartDistance(const Part& part) : part_(part), boundary_(part_, 0),
   is_hole_ = part_.closed() && nearest(corner_).distance < 0;
 }
 
-/// The middle of a grid of kLooks x kLooks places that is furthest from the material.
+/// Of kLooks x kLooks places of a grid, the one that is furthest from the material.
 Vec2 PartDistance::middle_of_hole() {
   Vec2 best = corner_;
   double most = -std::numeric_limits<double>::infinity();

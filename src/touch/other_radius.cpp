@@ -179,7 +179,8 @@ std::optional<TouchFit> fit_with(const TouchAnswer& answer) {
 
 }  // namespace
 
-/// Two touches or more. Without a stated finger it may have been forgotten: radii are shares of the perimeter then.
+/// None of fewer than two touches. Without a stated finger it may have been forgotten: radii are shares of the
+/// perimeter then.
 std::vector<TouchDiagnosis> other_radii(const TouchProblem& problem) {
   std::vector<TouchDiagnosis> told;
   if (problem.touches.size() < 2) return told;

@@ -290,7 +290,7 @@ class OutlierSets {
   }
 
   /// The answer by all touches but these.
-  /// Unobservable, without a search, where no contact that counts has a place.
+  /// Unobservable, without a search, where there are no rolls and no touch that counts has a place.
   TouchAnswer without(const Outliers& outliers) const {
     TouchProblem counted = problem_;
     counted.touches.clear();

@@ -33,7 +33,7 @@ constexpr int kMostJumps = 4;
 // Where a nearest place is free to move, the slope there is less, in standard deviations.
 constexpr double kNoSlope = 1e-4;
 // A heading is somewhere on the circle, even where no touch tells where: this many radians, as a standard deviation.
-// As a prior it is so weak that it moves no pose that a touch holds.
+// It keeps the matrix regular; it has no slope, so that it moves no pose.
 constexpr double kAnyHeading = std::numbers::pi;
 
 }  // namespace
@@ -66,8 +66,7 @@ Normals normals_at(const PartFrame& frame, const InPart& touch, const CentrePoin
     const Vec2 turn = frame.in_world(left);
     const Vec2 off = touch.at - point.centre;
     const Vec2 pull = frame.in_world(off);
-    // J = -(I
-    // turn): J^T J has |turn|^2 = |left|^2 in its corner.
+    // J is -(identity, turn), so that J^T J has |turn|^2 = |left|^2 in its corner.
     normals.matrix << 1, 0, turn.x(), 0, 1, turn.y(), turn.x(), turn.y(), left.squaredNorm();
     normals.matrix *= share;
     normals.slope = share * Eigen::Vector3d(pull.x(), pull.y(), left.dot(off));
@@ -138,7 +137,7 @@ bool PoseFit::is_pinned_at(const PathPlace& place, std::size_t touch, const Dist
   return is_end && std::abs(distance.slope) > kNoSlope * std::sqrt(distance.weight);
 }
 
-/// A roll's nodes slide between neighbours, so it is never pinned.
+/// A roll with noise slides within its node, so it is never pinned.
 bool PoseFit::is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const {
   if (touches_[touch].roll != nullptr) return false;
   return is_pinned_at(place, touch, distance_at(path(touch).at(place), in_part(pose, touch)));
@@ -217,8 +216,7 @@ double PoseFit::touches_moved(const Eigen::Vector3d& step) const {
   return most;
 }
 
-/// The weak prior on the heading keeps the matrix regular where nothing else tells it; its slope is left out. A prior
-/// of the heading alone has an infinite `place_sd`.
+/// The prior by `kAnyHeading` is in the matrix alone. A prior of the heading alone has an infinite `place_sd`.
 Normals PoseFit::prior_normals(const Pose& pose) const {
   Normals normals;
   normals.matrix(2, 2) = 1 / (kAnyHeading * kAnyHeading);
@@ -252,7 +250,8 @@ Pose PoseFit::moved(const Pose& pose, const Eigen::Vector3d& step) const {
   return {place.x(), place.y(), pose.heading + step(2)};
 }
 
-/// A length: the move after one has been turned into the other's heading, and the turn times the part's diagonal.
+/// A length: how far the origins are apart once `other` has been turned into the heading of `one`, and the turn times
+/// the part's diagonal.
 double PoseFit::distance(const Pose& one, const Pose& other) const {
   const double turn = nearest_angle(one.heading - other.heading);
   const Pose turned = moved(other, {0, 0, turn});
@@ -357,7 +356,7 @@ bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) const {
   return jumped;
 }
 
-/// Descents and jumps in turn, until no contact jumps. None: `is_known` ended it.
+/// Descents and jumps in turn, until no contact jumps, or kMostJumps times. None: `is_known` ended it.
 std::optional<FittedPose> PoseFit::settled(State state, const std::optional<Held>& held,
                                            const IsKnown& is_known) const {
   beat();

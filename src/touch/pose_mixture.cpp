@@ -128,7 +128,7 @@ void PoseMixture::finish(const TouchProblem& problem, double log_total, TouchAns
   of_touches.rolls.clear();
   const AllContacts contacts(of_touches, answer.radius);
   const PoseFit fit(contacts.each, {});
-  // All but what is listed.
+  // What is listed is taken off below.
   answer.rest = 1;
   for (std::size_t k = 0; k < merged.size(); ++k) {
     TouchPose& pose = merged[k];

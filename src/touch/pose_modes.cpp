@@ -249,7 +249,7 @@ Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {
     double sum = 0;
     for (const MixtureTerm& term : terms) {
       const double off = term.mean - value;
-      if (std::abs(off) > kAllOfTerm * term.sd) {
+      if (std::abs(off) >= kAllOfTerm * term.sd) {
         sum += off < 0 ? term.weight : 0;
       } else {
         sum += term.weight * 0.5 * std::erfc(off / (term.sd * std::numbers::sqrt2));

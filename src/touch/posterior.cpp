@@ -71,8 +71,8 @@ class NodeMaker {
       const Measured& touch = fit_.touches()[k];
       if (touch.roll != nullptr) {
         const RollNode& at = touch.roll->at(best.places[k]);
-        // A roll's squares hold its density: that is taken out, and the node's weight counts, of the first contact
-        // later.
+        // A roll's squares hold its density: that is taken out, and the node's weight counts instead. That of the first
+        // contact is added later.
         node.log_density += k == first_ ? at.log_peak - at.log_density : at.log_peak + at.log_weight - at.log_density;
       } else if (k != first_) {
         node.log_density += std::log(touch.place_unit);
@@ -263,7 +263,7 @@ class Weigher {
   Weigher(PoseFit& fit, const CellSets& sets, std::size_t first_touch, std::size_t most_places)
       : fit_(fit), sets_(sets), first_(first_touch), most_places_(most_places), maker_(fit, first_touch) {}
 
-  /// Columns in order of the first touch's places; ends early where there are more places than asked for.
+  /// Columns in order of the first touch's places; ends early where there are more places than `most_places`.
   Posterior posterior() {
     result_.owner.assign(sets_.groups.size(), Posterior::kNone);
     hopeless_ = hopeless_groups(fit_, sets_, first_);
@@ -302,7 +302,7 @@ class Weigher {
 
   /// How fine the grid has to be on a stretch, by what is in its middle.
   /// Steps by u: the most that any group asks for, by the sd of u or by how far a step moves the touches, and no more
-  /// than the first touch's own sd asks for. The fits are kept: one of them is the middle place's start.
+  /// than the first touch's own sd asks for. The fits are kept: `add_place` does not repeat them.
   double fineness(const Groups& groups) {
     if (fit_.touches()[first_].roll != nullptr) return 0;
     const std::int32_t node = node_of(groups.begin);

@@ -158,7 +158,7 @@ void require_tolerance(const TouchProblem& problem) {
   }
   const TouchTolerance& tolerance = *problem.tolerance;
   const double most = problem.part.perimeter();
-  // Of rolls alone 0 is allowed.
+  // With rolls 0 is allowed.
   if (!problem.rolls.empty() && !(tolerance.angle >= 0)) {
     refuse(fmt::format("expected a `tolerance` of angles of at least 0, found {}", tolerance.angle));
   }
@@ -306,8 +306,8 @@ RollSearched in_mirror(RollSearched roll) {
   return roll;
 }
 
-/// x = -x of all that was measured and of the prior; the part stays. Its mirror image in the world looks as the part
-/// does.
+/// Of all that was measured and of the prior x changes its sign; the part stays. Seen so, a part that lies face down
+/// looks as it is stored.
 TouchProblem in_mirror(const TouchProblem& problem) {
   TouchProblem result = problem;
   for (MeasuredTouch& touch : result.touches) {

@@ -189,7 +189,7 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
   const double last_tangent = hi.pose.mean.heading + hi.tangent;
   node.tangent = first_tangent + share * nearest_angle(last_tangent - first_tangent);
   node.at = (1 - share) * lo.pose.mean.world(centre_at(path_, lo)) + share * hi.pose.mean.world(centre_at(path_, hi));
-  // A grain on the diagonal keeps it regular, and makes a reference's centre exact.
+  // A grain on the diagonal keeps it regular. The centre of a reference is known to kReference.
   Eigen::Matrix3d covariance = 0.5 * (covariance_at(path_, lo) + covariance_at(path_, hi));
   const double grain = (centre_ == RollCentre::reference ? kReference : kLeastCentre) * path_.part().perimeter();
   covariance.diagonal() += Eigen::Vector3d(grain * grain, grain * grain, kLeastAngle * kLeastAngle);

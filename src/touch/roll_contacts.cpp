@@ -205,7 +205,7 @@ void measure_first(const Log& log, const Finger& finger, double radius, Measured
 
 /// With noise: an arc of each that holds what the nodes say, and the tolerance of the search beyond.
 /// The middle of all nodes' means and, beyond half their range, kTouchSigmas of the largest standard deviation: the
-/// search holds every node. Nodes of no weight are left out.
+/// search holds every other node. Left out are nodes whose density is below exp(-kLeastDensity) of the largest.
 void measure_belief(const RollBelief& belief, Measured& measured) {
   Vec2 least(1e300, 1e300), most(-1e300, -1e300);
   double before = 0, behind = 0, place_sd = 0, angle_sd = 0;
@@ -349,7 +349,7 @@ RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre c
 }
 
 /// Without noise rows all along the roll are searched with, so that what one of them contradicts is gone.
-/// As many as kInstants, evenly over the rows; a log without times gets row numbers for times.
+/// At most kInstants, evenly over the rows; a log without times gets row numbers for times.
 void add_instants(Problem& single) {
   Log& log = *single.measured.log;
   if (log.time.empty()) {

@@ -190,7 +190,7 @@ class HeadingSearch {
     }
     // A circle, or another part of which every heading fits.
     pose.any_heading = headings.width() >= kFullTurn;
-    // x and y stay 0 here: `add_roll_ends` makes them NaN.
+    // x and y stay 0 here. Where nothing tells the place `add_roll_ends` makes them NaN.
     pose.extent[2] = headings;
     double most = 0;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -306,7 +306,7 @@ void add_roll_ends(const std::vector<RollContact>& rolls, const std::vector<Meas
       TouchContact& contact = pose.contacts[k];
       const double end = contact.s + rolls[k].travelled;
       contact.end = boundary.closed ? boundary.canonical(end) : std::clamp(end, 0.0, boundary.perimeter);
-      // The first arc that holds the contact; `heading_sets` has set it already.
+      // The first arc that holds the contact. An extent that `heading_sets` has set stays.
       for (const Interval& arc : rolls[k].confined.arcs) {
         if (!contact.extent && boundary.contains(arc, contact.s, kSeam * boundary.perimeter)) contact.extent = arc;
       }

@@ -53,7 +53,7 @@ struct Side {
   Vec2 arm = Vec2::Zero();  // w_i
   Interval rest;            // of the side, along it from c_i
   double most = 0;          // delta_i
-  // Of the path, that the side is on, and c_i:
+  // Of the path: the number of the side's stretch, and c_i.
   std::int32_t stretch = -1;
   Vec2 centre = Vec2::Zero();
 

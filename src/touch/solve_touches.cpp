@@ -23,9 +23,9 @@
 //   weight       with noise: of a node of the posterior; a set's share of all weights is its probability
 //   log Z        `log_evidence`: likelihood of all contacts, averaged over poses and over where they can be
 // Follows docs/touch.md, "How it works" and "What the answer promises".
-// Idea: every pose of the part that fits contacts which share it. The search leaves cells that hold all such poses.
-// Each connected set of them is told with a pose that fits, or with noise with its probability. What the search could
-// not decide goes into `unresolved`; nothing is dropped but what is proved not to fit, or is improbable.
+// Idea: find every pose of the part in which all contacts fit. The search leaves cells that hold all such poses. Each
+// connected set of them is told with a pose that fits, or with noise with its probability. What the search could not
+// decide goes into `unresolved`; nothing is dropped but what is proved not to fit, or is improbable.
 namespace rollfix {
 namespace touch {
 namespace {
@@ -64,7 +64,7 @@ void conclude(TouchAnswer& answer) {
   const auto stretches =
       static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),
                                              [](const TouchPose& pose) { return pose.continuum; }));
-  // A disk, for example: the place is known, the heading is not.
+  // A round part, for example: the place is known, the heading is not.
   if (is_sure && poses.front().any_heading) {
     verdict.name = Verdict::unobservable;
   } else if (is_sure && stretches == 0) {

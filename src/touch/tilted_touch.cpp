@@ -102,7 +102,7 @@ class Integral {
       const std::int32_t index = waiting.back();
       waiting.pop_back();
       const PathTree::Node node = tree.node(index);
-      // No place of the node adds anything.
+      // Each place of the node counts less than exp(-kNothing / 2) of the nearest.
       if (least_square(node, touch_) > least_ + kNothing) continue;
       const auto stretch = static_cast<std::size_t>(node.stretch);
       const double length = node.is_single() ? length_per_u(path_, stretch) : 1;

@@ -20,7 +20,7 @@
 
 // Notation:
 //   x, y, normal     of a touch: MeasuredTouch; what is empty was not measured, NaN or none
-//   contact          1: a touch, 0: a place on a way on which nothing was felt; without the column all rows are touches
+//   contact          1: a touch, 0: a place on a way that was free; without the column all rows are touches
 //   report           what a milling controller writes of its probe: ProbeReport
 //   clear            straight ways from a row with contact 0 to the row after it
 // Follows docs/touch.md, "What to give".
@@ -220,7 +220,7 @@ class TouchReader {
   }
 
  private:
-  /// Without a place only a normal that was felt says something; half a place says nothing.
+  /// Without a place only a measured normal of a touch says something; half a place says nothing.
   void require_normal_alone(const TableRow& row, const MeasuredTouch& touch) const {
     const bool is_half = !std::isnan(touch.at.x()) || !std::isnan(touch.at.y());
     if (!is_half && touch.normal && has_contact(row)) return;

@@ -156,8 +156,8 @@ class Grid {
     places_.push_back(place);
   }
 
-  /// X in closed form: normal about the mean of X0 and q - R o(u), weighted by their variances. `square` grows by how
-  /// far these two are apart; beyond kGridEnd the node is left out.
+  /// X in closed form: normal about the mean of X0 and q - R o(u), weighted by their inverse variances. `square` grows
+  /// by how far these two are apart; beyond kGridEnd the node is left out.
   void add_node(const CentrePoint& point, double heading, double square, double step, double turn) {
     const Pose turned{0, 0, heading};
     const Vec2 arm = turned.turned(point.centre);
@@ -254,7 +254,7 @@ TouchFit fit_of(const Asked& asked, const FittedPose& fitted, bool is_continuum)
   return result;
 }
 
-/// By p; of fits that can't be told so, the one with more checks.
+/// By p; of equal p, the one with more degrees of freedom.
 bool fits_better(const TouchFit& one, const TouchFit& other) {
   return one.p > other.p || (one.p == other.p && one.freedom > other.freedom);
 }

@@ -128,8 +128,8 @@ class OnPart final : public Meaning {
     belief_->add(from_base(sample));
   }
 
-  /// What the posterior says of all samples off corners; its modes led to the first contacts and to the last ones.
-  /// Before there is such a sample any place fits.
+  /// What the posterior says of all samples off corners. Its modes are moved to the first contacts and to the last
+  /// ones. Before there is such a sample any place fits.
   void look(Tracked& answer) override {
     answer.verdict = {Verdict::unobservable};
     answer.rest = 1;
@@ -190,7 +190,7 @@ class OnPart final : public Meaning {
     if (way_) to_first_contacts(*way_, part, noise, mode);
     const Reading further = between(weighed_, last_);
     const bool is_further = std::any_of(further.length.begin(), further.length.end(), [](double l) { return l != 0; });
-    // At rest, or off corners, the last contacts are those that were weighed.
+    // If not, the last contacts are those that were weighed.
     if (is_further) to_last_contacts(further, part, noise, mode);
   }
 
@@ -294,14 +294,14 @@ void KeptSamples::add(const Sample& sample) {
   if (seen_++ % every_ != 0) return;
   kept_.push_back(sample);
   if (kept_.size() < kMostKept) return;
-  // Every other one stays, and from now on one of twice as many is kept: still evenly spread, from half of kMostKept
-  // up.
+  // Every other one stays, and from now on only half as many samples are kept: still evenly spread. So at least half of
+  // kMostKept stay.
   for (std::size_t k = 0; 2 * k < kept_.size(); ++k) kept_[k] = kept_[2 * k];
   kept_.resize((kept_.size() + 1) / 2);
   every_ *= 2;
 }
 
-/// The last sample is told by its line.
+/// Its line tells whether it is kept already.
 void KeptSamples::end_with(const Sample& sample) {
   if (kept_.empty() || kept_.back().line != sample.line) kept_.push_back(sample);
 }

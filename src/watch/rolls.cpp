@@ -15,10 +15,10 @@
 //   look            to work out what all samples so far mean: `answer_`, which holds after `answer_.samples` of them
 //   said            the answer that was told last: `said_`; news is an answer that differs enough from it
 //   beginning       where in the log's own measure this roll begins: `beginning_`; (0, 0) unless the roll before was
-//                   contradicted and ended where contact was not lost
+//                   contradicted and contact was not lost since
 // Follows docs/watch.md.
-// Idea: a look costs more the more samples there are, so looks come when a roll has grown by a share: their number
-// grows with the logarithm of the roll's length. Live they come by the clock as well, for at most half of the time.
+// Idea: a look comes when a roll has grown by a share, so that the number of looks grows with the logarithm of the
+// roll's length. Live they come by the clock as well, for at most half of the time.
 namespace rollfix {
 namespace {
 
@@ -54,7 +54,7 @@ Rolls::Rolls(Followed followed, MakeMeaning make) : followed_(std::move(followed
 }
 
 std::vector<Tracked> Rolls::push(const LogLine& row, LogKind kind) {
-  // A row that is left out, or none, changes nothing here: the stream has counted it.
+  // A row that was left out, or none, changes nothing here.
   kind_ = kind;
   switch (row.kind) {
     case LineKind::first:
@@ -201,8 +201,8 @@ void Rolls::look() {
 }
 
 /// The last answer of a roll, told whether it is news or not. Nothing if there is no roll. Why rows fit badly is asked
-/// at the end of the log, live, the first time, and then only after kSamplesForWhy more samples; not of a roll that
-/// ended elsewhere.
+/// live, at the end of the log, and as long as it was never answered; after that only when kSamplesForWhy more samples
+/// came. It is not asked of a roll that ended elsewhere.
 void Rolls::end_roll(RollEnd why) {
   if (!meaning_) return;
   const bool is_asked = why != RollEnd::elsewhere;  // else it is known what is wrong

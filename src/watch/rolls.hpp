@@ -55,7 +55,7 @@ class Rolls {
   std::size_t rolls_ = 0;                              // so far, this one included
   std::size_t samples_ = 0;                            // of this roll
   std::size_t all_samples_ = 0;                        // of all rolls
-  Sample last_;                                        // of these
+  Sample last_;                                        // the last of them
   Reading beginning_;                                  // of this roll, as the log measures
   bool is_elsewhere_ = false;                          // the next sample begins another one
   Tracked answer_;                                     // when it was last worked out

@@ -124,7 +124,6 @@ Tracker::State::State(const Followed& followed, MakeMeaning make)
              followed.options.robust),
       rolls(followed, std::move(make)) {
   const auto& [part, fingers, noise, options] = followed;
-  // Before any row comes.
   if (options.wheel) require_of_wheel(followed);
   if (options.name_b) {
     two.emplace(std::array{options.name, *options.name_b}, part, fingers, noise, options.log, options.robust,

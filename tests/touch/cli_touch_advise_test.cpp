@@ -54,6 +54,11 @@ TEST(CliTouchAdvise, SaysSoWhereThePartLooksTheSame) {
   EXPECT_THAT(ran.out, HasSubstr("the part looks the same in each"));
 }
 
+TEST(CliTouchAdvise, APathThatNoPoseLeavesFreeIsNotHeldAgainstThem) {
+  const std::string one = "advise gallery:cam --touch 6,3,0deg --finger disk,r=0.2 --tolerance 0.01,1deg";
+  EXPECT_EQ(run(one + " --clear 5.4,3,4.8,3").out, run(one).out) << "it runs through the part behind the contact";
+}
+
 TEST(CliTouchAdvise, RefusesWhatCannotBeMeant) {
   const auto refused = [](const std::string& rest) {
     const Ran ran = run("advise " + rest);

@@ -32,8 +32,8 @@ struct Found {
   std::string how;
   double error = 0;        // of the start, length
   double residual = 0;     // radians
-  double rate = 0;         // Lemma 2; 0 for bisection
-  std::size_t rounds = 0;  // of the march's iteration
+  double rate = 0;         // Lemma 2; 0 for bisection and at a boundary
+  std::size_t rounds = 0;  // of the iteration, or halvings of the bisection
 };
 
 /// Steps of one kind.
@@ -162,17 +162,15 @@ void judge_by_further_readings(const Part& part, const MarchQuestion& question, 
   const auto rest = std::remove_if(marched.found.begin(), marched.found.end(), misfit);
   marched.further = static_cast<std::size_t>(marched.found.end() - rest);
   marched.found.erase(rest, marched.found.end());
-  // The end of the roll at the last reading.
   for (Found& found : marched.found) {
     for (std::size_t i = 0; i < found.start.size(); ++i) {
-      // After the last reading, on the first lap.
+      // The end of the roll after the last reading; on a closed part on the first lap.
       const double end = found.start[i] + question.readings.back().length[i];
       found.end.push_back(part.closed() ? wrap(end, part.perimeter()).base : end);
     }
   }
 }
 
-/// The first word of the answer.
 std::string march_verdict(const Marched& marched) {
   if (!marched.complete()) return "undecided";
   if (marched.found.empty()) return "inconsistent";

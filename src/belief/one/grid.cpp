@@ -57,7 +57,8 @@ constexpr double kEven = 1e-6;
 // ... and one that changes by more, as a logarithm, is as good as all at its upper end.
 constexpr double kSteep = 600;
 
-/// How fast the distance d changes between two points, per w: as the information at both allows, or as it does.
+/// How fast the distance d changes between two points, per w: the larger one of what the information at both ends
+/// allows and of the change from one end to the other.
 double rate_of(const Score& lo, const Score& hi, double h) {
   return std::max(std::sqrt(std::max(lo.information, hi.information)),
                   std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h);
@@ -213,13 +214,14 @@ bool Grid::can_start_in(const Interval& s) const {
   });
 }
 
-/// The density by w of the prior: ds/dw along the boundary, `corner_length_` (r) in a corner, where s stays.
+/// The logarithm of the prior's mass over `width` of w. Its density by w is ds/dw = length / h along the boundary, and
+/// `corner_length_` (r) in a corner, where s stays.
 double Grid::log_prior(double length, double h, double width) const {
   const double slope = length / h;
   return std::log((slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_) * width);
 }
 
-/// Log likelihood by heat, plus the logarithms of the prior's density and of the peak's width.
+/// The log likelihood divided by the heat, plus the logarithms of the prior's density and of the peak's width.
 double Grid::log_mass(const GridPoint& point) const {
   // A peak is about one standard deviation wide, and no wider than the boundary.
   const double width = 1 / (std::sqrt(point.score.information) / fit_.widened + 1 / length_);
@@ -277,7 +279,7 @@ bool Grid::refine(const Nodes& nodes) {
   for (std::size_t a = 0; a < points_.size(); ++a) {
     const TiltedArc& arc = boundary_->arcs()[a];
     const double least = kLeastCell * (arc.hi() - arc.lo());
-    // Wider cells are resolved only where density and boundary are even in them.
+    // Wider cells are resolved only where density and boundary are even in them, or far below the best one.
     const double narrow = length_ / kMostCells;
     const GridPoints& points = points_[a];
     std::pmr::vector<double> added(memory_);

@@ -128,7 +128,7 @@ struct GridCell {
   double log_density = 0;  // of it, by w, on average and up to a constant; ...
   double rise = 0;         // ... from the lower end to the upper one it changes by this
   double steps = 0;        // in standard deviations, what the distance changes by at most
-  bool fine = false;       // resolved; else negligible, or one of those that Grid::rest() bounds
+  bool fine = false;       // resolved; else Grid::rest() bounds its mass, or no first contact can be in it
   std::size_t fold = 0;    // so many of the boundary's folds further on than its points
 
   /// Up to which share of its width, from the lower end on, it holds this share of its mass.

@@ -352,7 +352,7 @@ void sort_by_density(std::pmr::vector<EvenMass>& stretches) {
 
 /// By s, from where it is least to where it is largest: an exponential.
 Interval densities_in(const GridCell& cell) {
-  // An exponential of this mean and rise has its maximum at mean rise / (1 - exp(-rise)).
+  // The maximum of an exponential with this mean and rise is mean * rise / (1 - exp(-rise)).
   const double mean = cell.share / std::max(cell.s.width(), 1e-300);
   const double rise = std::max(std::abs(cell.rise), 1e-300);
   const double most = mean * rise / -std::expm1(-rise);

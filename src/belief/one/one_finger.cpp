@@ -12,10 +12,10 @@
 // the roll shares; the density along the boundary; and the facade of all of it.
 // Notation:
 //   w, s            tilted turning of the first contact, the grid's coordinate, and its place: GridPoint, GridCell
-//   share           of the mass, in a cell, a little piece of a mode (MassPiece) or a piece of the density
-//   (DensityPiece) cost, volume    -2 log L = cost + log_volume at a point: Score widened         by how much the rows
-//   are further off than the noise says: `fit_.widened` eps, gamma, b   scales of lengths and of turns and a
-//   gyroscope's bias: `shared_error` 2, 3 and 4
+//   share           of the mass: in a cell, in a small piece of a mode (MassPiece), or in a DensityPiece
+//   cost, volume    -2 log L = cost + log_volume at a point: Score
+//   widened         by how much the rows are further off than the noise says: `fit_.widened`
+//   eps, gamma, b   scales of lengths and of turns and a gyroscope's bias: `shared_error` 2, 3 and 4
 // Follows docs/belief.md, "The computation" and "When the rows fit badly".
 // Idea: cells are cut into parts of about the same mass (one finger), or little pieces are counted by steps (two): both
 // give a density that is constant on each piece. The fit is that of the likeliest point.
@@ -180,7 +180,8 @@ Grid::Error Grid::shared_error(int which) const {
   return {mean, std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean))};
 }
 
-/// True lengths are the measured ones divided by 1 + x_2; true turns are the measured ones less x_3 times them.
+/// True lengths are the measured ones divided by 1 + x_2; true turns are the measured ones less x_3 times what a
+/// gyroscope measured.
 void Grid::measure_scale() {
   const Error of_lengths = shared_error(2);
   const Error of_turns = shared_error(3);
@@ -309,7 +310,7 @@ class OneFingersPosterior : public Posterior {
     return belief::credible_length(state_->grid);
   }
 
-  /// Of the last sample, at the ends of the modes: f = Theta(s + L) - Theta(s) - theta has the error dtheta - kappa dL.
+  /// Of the last sample, at the ends of the modes: f = Theta(s + L) - Theta(s) - theta is off by kappa dL - dtheta.
   double variance_of_miss(const std::vector<Reading>& /*readings*/, const std::vector<Mode>& modes) const override {
     const SharedCovariance& shared = state_->errors.start();
     const RowCovariance own = state_->errors.row(last_.finger_curvature);
@@ -361,7 +362,6 @@ class OneFingersPosterior : public Posterior {
     if (first.contact) first_psi_ = (*first.contact)[0].psi;
     last_ = row_of(first);
   }
-  /// One row more.
   void take(const Sample& sample) {
     last_ = row_of(sample);
     state_->nodes.add(last_);

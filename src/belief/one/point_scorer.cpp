@@ -236,7 +236,7 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::option
   return trend_of(all, nodes.freedom());
 }
 
-/// (s - s_prior)^2 / sd^2 and its derivatives by w; ds/dw is 0 in a corner.
+/// The cost (s - s_prior)^2 / sd^2, with the slope of -cost / 2 by w and the information; ds/dw is 0 in a corner.
 Score PointScorer::prior_at(const TiltedPlace& place) const {
   const double precision = 1 / square(options_.prior->sd);
   const double off = places_.offset(options_.prior->s, place.s);

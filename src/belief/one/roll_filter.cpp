@@ -71,7 +71,8 @@ RollFilter RollFilter::again(const SharedCovariance& start, std::pmr::memory_res
 RollFilter::About RollFilter::about(double length) const {
   About about{x_, p_};
   if (!found_) return about;
-  // What the pass before found. The first centre's errors (5, 6) stay as this pass has them, without covariance.
+  // What the pass before found. The first centre's errors (5, 6) stay as this pass has them, with no covariance with
+  // the others.
   about.errors.head<kRolling>() = found_->errors;
   about.open.topRows<kRolling>().setZero();
   about.open.leftCols<kRolling>().setZero();
@@ -183,7 +184,8 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about
   rows.own_variance.bottomRightCorner<2, 2>().diagonal().array() += variance;
 }
 
-/// One step of the filter: predict (what gathers on the way), correct (`absorb`), and keep the scales within bounds.
+/// One step of the filter: predict (what gathers on the way), correct (`absorb`), and keep the scales and the bias
+/// within bounds.
 void RollFilter::update(const Node& node, const Outliers& outliers) {
   const auto gather = [&](double share) {
     p_.topLeftCorner<2, 2>() += share * matrix_of(node.gathered);

@@ -291,7 +291,7 @@ typename SideBySide<Errors>::About SideBySide<Errors>::about(const Rows& rows) c
   const auto of_length = [&](const Covariance& p) {
     return p(0, 0) + rows.length * (2 * p(0, 2) + rows.length * p(2, 2));
   };
-  // 1 where the pass before leaves less of this length open than the rows so far do, else 0.
+  // 1 where the pass before leaves no more of this length open than the rows so far do, else 0.
   const Four from_end = (of_length(open) <= of_length(p_)).template cast<double>();
   for (std::size_t k = 0; k < Errors; ++k) {
     for (std::size_t j = k; j < Errors; ++j) {
@@ -476,7 +476,8 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   for (std::size_t k = 0; k < Errors; ++k) {
     for (std::size_t j = k; j < Errors; ++j) p_(k, j) -= trusted * of_errors[k] * of_errors[j];
   }
-  // The gain of the filter with K alone divides by S_w. `trusted * all` is an outlier's weight.
+  // The gain of the filter with K alone divides by S_w. `trusted * all` is the row's weight: below 1 if it may be an
+  // outlier.
   const Four seen = trusted * lines.all / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;
   walk01_ -= seen * lines.of_length * lines.of_turn;

@@ -63,7 +63,7 @@ std::vector<RangeRow> rows_for(const PairModel& model, const std::vector<PairNod
       const double kf = errors.normal_turn(finger);
       const double own = errors.contact_variance() / node.rows;
       // Through 1/r a contact's error turns the felt normal: the row's own, and the first contact's where f is a
-      // change.
+      // change. In the facing it is the first contact's alone.
       variance += kf * kf * (node.is_facing ? start(i, i) : own + (errors.absolute() ? 0 : start(i, i)));
       row.length[finger] = length;
       if (node.is_facing) continue;
@@ -154,7 +154,8 @@ PairCandidates pair_candidates(const PairModel& model, const TurningRange& range
   const PairSieve sieve(model, range, nodes, sigmas);
   PairCandidates candidates;
   candidates.cells = kFirstSquares;
-  // Two contacts for each row and the sum: each is beyond `sigmas` with the chance erfc(sigmas / sqrt 2) (union bound).
+  // A contact is beyond `sigmas` with the chance erfc(sigmas / sqrt 2). Two contacts for each row, and the sum counts
+  // as one more (union bound).
   candidates.missed = std::min(1.0, (2 * sieve.rows() + 1) * std::erfc(sigmas / std::numbers::sqrt2));
   const auto centre = [&](std::uint32_t index) {
     return P * (static_cast<double>(index) + 0.5) / static_cast<double>(candidates.cells);

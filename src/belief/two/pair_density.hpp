@@ -121,7 +121,7 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
 
 struct PairModes {
   std::vector<Mode> modes;                     // the most probable first
-  std::vector<std::vector<MassPiece>> pieces;  // of each, without those of next to no probability
+  std::vector<std::vector<MassPiece>> pieces;  // of each, without those below kLeastShare
 };
 
 /// The connected pieces of a density: two peaks are two modes where it falls far enough on every way between them.

@@ -106,6 +106,7 @@ struct PairModel {
       slipping{};                             // the same where a place is off by what has slipped as well, or nullptr
   std::array<const Passings*, 2> passings{};  // of the nodes, where the part has corners or ends
   const BoundaryPath* path = nullptr;         // where centres are looked at
+  PairShared gathered = PairShared::Zero();   // variances of what gathers over the whole roll
   double outlier_share = 0;                   // of rows whose turn is anything
   std::optional<Prior> prior;                 // of finger a's first contact
   std::optional<PosePrior> pose;              // of the part at the first contacts, ...

@@ -80,6 +80,9 @@ std::vector<std::size_t> tops_of(const PairRegion& region) {
   return result;
 }
 
+// Of exact lengths nothing is to be shared out.
+constexpr double kNoVariance = 1e-300;
+
 /// A share of the mass, at one finger's place, give or take `half`.
 struct Grain {
   double s;
@@ -106,7 +109,6 @@ double quantile(const std::vector<Grain>& grains, double mass) {
   return most;
 }
 
-/// Leaves of a hill, weighed.
 /// One mode, made from the leaves of its hill.
 class PairHill {
  public:
@@ -150,18 +152,44 @@ class PairHill {
     }
     std::vector<MassPiece> pieces;
     pieces.reserve(static_cast<std::size_t>(count));
+    const Eigen::Vector2d share = share_of_first();
+    const Eigen::Vector2d walked = model_->gathered.head<2>().cwiseProduct(share);
     for (const std::size_t k : leaves_) {
-      const PairScore& score = region_->leaves[k].score;
-      for (const PairGrain& grain : region_->leaves[k].grains) {
+      const PairLeaf& leaf = region_->leaves[k];
+      const Eigen::Matrix2d open = leaf.score.covariance.topLeftCorner<2, 2>();
+      Eigen::Matrix2d covariance = share.asDiagonal() * open * share.asDiagonal();
+      covariance += walked.asDiagonal();
+      for (const PairGrain& grain : leaf.grains) {
         if (!counts(grain)) continue;
-        pieces.push_back({grain.s, grain.angle, grain.share, std::nullopt,
-                          PerFinger<double>(score.errors[0], score.errors[1]), score.covariance.topLeftCorner<2, 2>()});
+        const Eigen::Vector2d slid = share.cwiseProduct(offsets_at(leaf, grain));
+        pieces.push_back(
+            {grain.s, grain.angle, grain.share, std::nullopt, PerFinger<double>(slid[0], slid[1]), covariance});
       }
     }
     return pieces;
   }
 
  private:
+  /// How much of an offset of lengths at the end of the roll is the error of the first contact, of each finger. The
+  /// offset is that error and all that has slipped since, which are independent: what is known of their sum is shared
+  /// out as their variances are.
+  Eigen::Vector2d share_of_first() const {
+    const Eigen::Vector2d first = model_->errors->start().diagonal().head<2>();
+    return first.cwiseQuotient((first + model_->gathered.head<2>()).cwiseMax(kNoVariance));
+  }
+
+  /// The offsets of lengths as the rows tell them for these first contacts, linear in w about the leaf's centre.
+  Eigen::Vector2d offsets_at(const PairLeaf& leaf, const PairGrain& grain) const {
+    const Eigen::Vector2d centre = region_->frame * leaf.centre;
+    Eigen::Vector2d from_centre;
+    for (const std::size_t finger : {0U, 1U}) {
+      const auto i = static_cast<Eigen::Index>(finger);
+      const double w = grain.angle[finger] + model_->boundary[finger]->tilt() * grain.s[finger];
+      from_centre[i] = w - region_->origin.w[finger] - centre[i];
+    }
+    return leaf.score.errors.head<2>() + leaf.score.errors_by_start.topRows<2>() * from_centre;
+  }
+
   /// Where a density is flat its peak is a ripple somewhere, at an edge as well, and says nothing: what is nearest to
   /// the mean does.
   Mode in_the_middle(Mode mode) const {
@@ -245,7 +273,7 @@ class PairHill {
     return half;
   }
 
-  /// The variance of that, from offset and scale, and the row's own contact. To first order; length^2.
+  /// The variance of `rolled`, from offset and scale, and the row's own contact. To first order; length^2.
   double variance_rolled(const PairLeaf& leaf, std::size_t finger) const {
     const auto i = static_cast<Eigen::Index>(finger);
     const double length = rolled(leaf, finger);

@@ -168,7 +168,7 @@ class Stands {
   Stands(const PairModel& model, std::size_t finger, std::uint32_t cells, const Passings* passings)
       : model_(model), finger_(finger), step_(model.perimeter() / static_cast<double>(cells)), passings_(passings) {}
 
-  /// Computed once for each cell. Empty where no finger can be in it.
+  /// Computed once for each cell. Empty where this finger can't be in it.
   const std::vector<Stand>& in(std::uint32_t cell) {
     const auto [found, is_new] = of_cell_.try_emplace(cell);
     if (is_new) add_places(cell, found->second);

@@ -194,6 +194,7 @@ class TwoFingersPosterior : public Posterior {
         }
       }
       model.errors = &errors;
+      for (const PairNode& node : nodes) model.gathered += errors.gathered(node.gathered, node.travelled);
       model.boundary = {&of.boundary_[0], &of.boundary_[1]};
       model.felt = {&*felt[0], alike ? &*felt[0] : &*felt[1]};
       const auto at_or_none = [](const std::optional<FeltTurning>& one) { return one ? &*one : nullptr; };
@@ -307,8 +308,8 @@ double TwoFingersPosterior::step_between(const std::vector<PairNode>& nodes) con
 }
 
 /// The search begins with contacts off by kFarthest standard deviations. Where the best peak fits badly the noise may
-/// be larger than stated: it is repeated with as many more as the fit asks for, up to kFarthestOfAll. At last all
-/// squares are possible.
+/// be larger than stated: the search is repeated with as many as the fit asks for, up to kFarthestOfAll. If there is
+/// still no peak, all squares are tried, unless a glance is asked for.
 Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   const PairErrors& errors = *question.model.errors;
   double freedom = 0;
@@ -325,9 +326,7 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
       const double s = peak.start.arc[0]->at(peak.start.w[0]).s;
       of_best.prior_sigmas = std::abs(part_.boundary().offset(options_.prior->s, s)) / options_.prior->sd;
     }
-    double gathered = 0;
-    for (const PairNode& node : question.nodes) gathered += errors.gathered(node.gathered, node.travelled)[4];
-    of_best.turn_gathered = std::sqrt(gathered);
+    of_best.turn_gathered = std::sqrt(question.model.gathered[4]);
     of_best.length_scale = {1 / (1 + best.errors[2]), 1 / (1 + best.errors[3])};
     // With that of the places: another start asks for another scale.
     const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() / square(part_.perimeter());  // nothing is known less

@@ -73,7 +73,7 @@ class Laps {
     const double from = (length - slack) * cells_per_length_;
     const double to = (length + slack) * cells_per_length_;
     constexpr auto kN = static_cast<std::int64_t>(N);
-    // Known to a lap at best, or so long that single cells are lost in rounding: the reading says nothing.
+    // Not known to within a lap, or so long that single cells are lost in rounding: the reading says nothing.
     if (!(to - from <= N && std::abs(from) <= kMostCells)) return false;
     const std::int64_t first = floor_of(from);
     const std::int64_t last = floor_of(to) + 1;  // rolls that start at the end of a cell

@@ -77,8 +77,8 @@ Interval perimeters(const Catalog& catalog) {
   return range;
 }
 
-/// Clues of a roll with noise. `few`: each row's slack holds all of its errors. `many`: own and shared errors are told
-/// apart and added up as squares; only what gathers on the way is slack. `range`: of perimeters.
+/// Clues of a roll with noise. `few`: the slack of each turn holds all of its errors. `many`: own and shared errors are
+/// told apart and added up as squares; only what gathers on the way is slack of the turn. `range`: of perimeters.
 RollClues clues_with_noise(const Problem& problem, const Observation& observed, const Interval& range, double excess) {
   const double farthest = excess * kFarthest;
   // Of a log all of its rows.
@@ -95,7 +95,7 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
     one.length_slack = farthest * std::sqrt(errors[row].length);
     return one;
   };
-  // One interval for each row: 6 standard deviations of all that it may be off.
+  // One interval for each row: `farthest` standard deviations of all that it may be off.
   for (const std::size_t row : some_of(rows.size(), kFew)) {
     roll.few.clues.push_back(clue(row));
     roll.few.clues.back().turn_slack =

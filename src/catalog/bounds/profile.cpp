@@ -89,7 +89,7 @@ Profile<kFineCells> profile_of(const Part& part) {
     Interval arc{step * (at - kBeyondCell), step * (at + 1 + kBeyondCell)};
     if (!part.closed()) arc = {std::max(arc.lo, 0.0), std::min(arc.hi, part.perimeter())};
     const Interval angles = angles_over(part.turning(), arc);
-    // Outwards: a float that is no larger than the least, and none smaller than the most.
+    // Rounded outwards: a float no larger than the least angle, and one no smaller than the largest.
     profile.least[k] = float_below(angles.lo);
     profile.most[k] = float_above(angles.hi);
   }

@@ -197,8 +197,8 @@ void PairBoxSearch::decide(const Box& box) {
   const PlaneCurve::Component* on_a = a_.components(box.a);
   const PlaneCurve::Component* on_b = b_.components(box.b);
   for (std::size_t row = 0; row < a_.rows(); ++row) {
-    // A row of its own excludes the box. The facing row is modulo 2 pi: its multiples within reach are counted, and
-    // bounds that need one of them wait until only one is left.
+    // One row alone can exclude the box. The facing row is modulo 2 pi: the multiples within reach are counted. Bounds
+    // that need the multiple are used only where a single one is left.
     const Range f = on_a[row].value - on_b[row].value;
     if (limits_.facing && row + 1 == a_.rows()) {
       const double least = std::ceil((f.least - tolerance) / kFullTurn);
@@ -411,9 +411,10 @@ bool PairBoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& li
   return true;
 }
 
-/// Decides boxes on which f varies by less than rounding or than a share of the tolerance, and boxes as small as
-/// rounding. f is 0 all over the box (a continuum, `exact`); or all of the box is in or out as its middle is; or f is
-/// within the tolerance all over it, so that the box is listed and its roots are left to be found.
+/// Decides a box where one of four conditions holds: f is 0 all over it (a continuum, `exact`, if the slopes are 0
+/// too), f is within the tolerance all over it, f varies by less than a share of the tolerance, or the box is as small
+/// as rounding. The box is out if the middle of f's bounds is. Else it is listed. `covered`: its roots are still to be
+/// found.
 PairBoxSearch::Flat PairBoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
   const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
   const double small_spread = kSmallVariation * limits.tolerance;

@@ -23,7 +23,8 @@ class PairBoxSearch {
   /// to.
   PairBoxSearch(PlaneCurve& a, PlaneCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
 
-  /// Decides all pairs of places on the two curves, depth first. What is over when the budget ends is in `unresolved`.
+  /// Decides all pairs of places on the two curves, depth first. What is left when the budget ends goes to
+  /// `unresolved`.
   void run();
 
  private:

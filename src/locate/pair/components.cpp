@@ -118,7 +118,7 @@ class Joiner {
     double widths = 0;
     for (const std::size_t k : members)
       widths += pieces_[k].box[finger].width() + 2 * kJointWidth * boundary_.perimeter;
-    if (widths < 0.5 * boundary_.perimeter) return false;  // too short together, without a sort
+    if (widths < 0.5 * boundary_.perimeter) return false;  // too short together: no sort needed
     std::vector<Interval> intervals;
     for (const std::size_t k : members) {
       const Interval& interval = pieces_[k].box[finger];

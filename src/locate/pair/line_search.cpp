@@ -303,8 +303,8 @@ std::size_t LineSearch::steepest(const Bounds& along) const {
 }
 
 /// The residuals vary by less than a share of their tolerances, or are within them all along: all of the stretch is in
-/// or out as its middle is. `is_point`: no halving can tell more. False: the stretch is listed, its roots may be left
-/// in it.
+/// or out as its middle is. `is_point`: no halving can tell more. False: the stretch is listed, and its roots are still
+/// to be found.
 bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_point) {
   const Place middle = place(stretch.lo.free.x + 0.5 * (stretch.hi.free.x - stretch.lo.free.x));
   double largest = 0;
@@ -391,8 +391,8 @@ LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& 
 }
 
 /// Is there no place beside the line, between these two, where all equations are within the tolerance? `within` allows
-/// each residual as much as the guide's own tolerance can add; together the equations may allow less. Told by those
-/// that are straight here: each cuts a polygon, and an empty one says yes.
+/// each residual as much as the guide's own tolerance can add; together the equations may allow less. Only equations
+/// that are straight here are used: each cuts a polygon, and if nothing is left of it, there is no such place.
 bool LineSearch::passes_by(const Place& lo, const Place& hi, const Range& y) const {
   const double least = std::max(y.least - margin_, bound().lo());
   const double most = std::min(y.most + margin_, bound().hi());

@@ -22,8 +22,8 @@ class LineSearch {
   /// wider than the box; then nothing was listed.
   bool run();
 
-  /// Do all equations vanish in the middle of the line too? A quick look before `run`: without that the curves do not
-  /// overlap in this box.
+  /// Do all equations vanish in the middle of the line too? A quick look before `run`: if not, the curves do not
+  /// overlap all along this box.
   bool may_overlap();
 
  private:

@@ -46,7 +46,7 @@ class SetsOfTwo {
     const PairRoot start = roots.empty() ? nearest_miss(cluster) : roots.front();
     FoundSet found{kind_of(cluster, roots, start), start.at, cluster.extent, cluster.whole_loop, {}};
     for (const PairRoot& root : roots) found.roots.push_back(root.at);
-    // The best place of pivots can be a root of all equations that none of the finds was.
+    // With pivots the best place can be a root of all equations although none of the finds was one.
     const bool may_be_root = roots.empty() && start.corner && question_.is_overdetermined();
     if (may_be_root && residual_at(question_, start.at) <= kRootTurn) found.roots.push_back(start.at);
     found.family.assign(cluster.family.begin(), cluster.family.end());
@@ -129,7 +129,7 @@ class SetsOfTwo {
   /// grid, by least squares from their best place and from the ends of the set.
   PairRoot nearest_miss(const PairCluster& cluster) const {
     PairPoint best = least_on_grids(cluster.extent);
-    // With corners f is set-valued and has no Jacobian everywhere: the grids alone.
+    // With corners f is set-valued, and its Jacobian does not exist everywhere: the grids alone.
     if (!part_.corners().empty()) return {best, 0, cluster.corner};
     double least = residual_at(question_, best);
     const PairBox& whole = cluster.extent;
@@ -239,7 +239,8 @@ class SetsOfTwo {
   }
 
   /// The kind of a cluster. With as many equations as unknowns the signs of det J add up to 0 where the curves touch:
-  /// then one goes to the other's far side and comes back, so that a change of a reading can make all roots vanish.
+  /// one curve crosses the other and comes back, or only touches it. A small change of a reading can then remove all
+  /// roots.
   Kind kind_of(const PairCluster& cluster, const std::vector<PairRoot>& roots, const PairRoot& start) const {
     if (cluster.exact) return Kind::stretch;
     if (start.corner) return Kind::corner;

@@ -309,8 +309,8 @@ class Linker {
   /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
   /// one with a large error, has every narrow one looked at; and exact ones, which are joined from further off, too.
   void link() {
-    // From here on clumps are one piece each, with `room_` around it.
     if (pieces_.size() < 2) return;
+    // From here on clumps are one piece each, with `room_` around it.
     const std::vector<std::size_t> swept = clump();
     reach_.reserve(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) reach_.push_back(along_slant(reach_box(k)));

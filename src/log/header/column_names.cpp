@@ -339,7 +339,7 @@ bool names_two_fingers(const std::vector<HeaderName>& header) {
 
 }  // namespace
 
-/// Only a guess, for messages: what a name ends in never converts a number by itself.
+/// Only a guess, for messages and to refuse a column whose unit is in doubt: it never converts a number by itself.
 std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit) {
   std::vector<std::string> words = words_of(name);
   // "contact_deg_a": the unit may stand before the finger.

@@ -18,7 +18,7 @@
 #include "text/text.hpp"
 
 // A header to columns. In this order: names and units in the header; one finger or two; columns that the options name;
-// columns of known names; then which of the three pairs the log has. All errors name the header and the cure.
+// columns of known names; then which of the three pairs the log has. All errors name the header's line.
 // Follows docs/rolling.md, "Logs".
 namespace rollfix {
 

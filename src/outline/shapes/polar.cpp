@@ -60,8 +60,8 @@ struct LimaconRadius {
 
   RadiusJet operator()(const Turn& turn) const {
     // Where b cos u is close to -|b|, the sum is taken as (a - |b|) + |b| (1 - cos^2)/(1 - ...) without cancellation.
-    // r = (a - |b|) + |b| (1 + c) with c = cos u or -cos u, so that 1 + c is never negative; near c = -1 it is sin^2 u
-    // / (1 - c).
+    // r = (a - |b|) + |b| (1 + c) with c = cos u, or -cos u where b < 0. For c < 0, 1 + c is computed as
+    // sin^2 u / (1 - c).
     const double cosine = b < 0 ? -turn.cosine : turn.cosine;
     const double above_least = cosine < 0 ? turn.sine * turn.sine / (1 - cosine) : 1 + cosine;
     const double size = std::abs(b);
