@@ -39,7 +39,7 @@ double furthest(const LogSpiral& curve, double from, double to) {
 }
 
 double bound_of(const LogSpiral& curve, double from, double to) {
-  return rollfix::arc_height(std::abs(curve.at(to) - curve.at(from)), curve.length(from, to), to - from);
+  return rollfix::part::arc_height(std::abs(curve.at(to) - curve.at(from)), curve.length(from, to), to - from);
 }
 
 TEST(ArcHeight, is_a_bound_whatever_the_arc_turns_by) {
@@ -58,7 +58,7 @@ TEST(ArcHeight, of_a_short_arc_is_near_what_it_is) {
   EXPECT_LT(bound_of(circle, 0, 0.1), 2.01 * furthest(circle, 0, 0.1));
 }
 
-TEST(ArcHeight, of_a_whole_circle_has_room_for_it) { EXPECT_GE(rollfix::arc_height(0, 6.2832, 6.2832), 2); }
+TEST(ArcHeight, of_a_whole_circle_has_room_for_it) { EXPECT_GE(rollfix::part::arc_height(0, 6.2832, 6.2832), 2); }
 
 }  // namespace
 }  // namespace arc_height_test

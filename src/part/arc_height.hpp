@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rollfix {
+namespace rollfix::part {
 
 /// No point of an arc is further from its chord. `chord` and `length` of the arc, `turn` of its tangent from end to end
 /// in radians, all of it in one direction.
@@ -19,4 +19,4 @@ inline double arc_height(double chord, double length, double turn) {
   return height * (1 + kRounding);
 }
 
-}  // namespace rollfix
+}  // namespace rollfix::part

@@ -43,7 +43,7 @@ struct LeafArc {
   /// `turns`: |Theta(to) - Theta(from)|, radians.
   LeafArc(double from, double to, const Vec2& starts, const Vec2& ends, double turns)
       : lo(from), hi(to), start(starts), end(ends), turn(turns) {
-    bulge = arc_height((end - start).norm(), hi - lo, turn);
+    bulge = part::arc_height((end - start).norm(), hi - lo, turn);
   }
 
   /// Holds every point of the arc.

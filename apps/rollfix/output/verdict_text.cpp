@@ -175,6 +175,8 @@ class VerdictText : AnswerWords {
   }
   std::string then(const Diagnosis& diagnosis) const {
     if (diagnosis.modes.empty()) return "";
+    // A cure that is not enough: its best place is none.
+    if (diagnosis.verdict.name == Verdict::inconsistent) return "; even then nothing fits";
     const Mode& first = diagnosis.modes.front();
     const std::string start = fingers_ == 1
                                   ? fmt::format("s = {:.6g}, sd {:.2g}", first.start[0], first.sd[0])
