@@ -57,6 +57,12 @@ TEST(CliNoise, a_gyroscopes_noise_without_times_or_unit_is_refused) {
               HasSubstr("'1deg/h' is none of 0.3deg/sqrt(h)"));
 }
 
+TEST(CliNoise, a_cure_after_which_nothing_fits_names_no_place) {
+  const std::string out = run("locate gallery:cam --reading 1,2 --noise contact=0.1").out;
+  EXPECT_THAT(out, HasSubstr("slip=0.2; even then nothing fits\n"));
+  EXPECT_THAT(out, Not(HasSubstr("then inconsistent")));
+}
+
 TEST(CliNoise, every_placement_has_a_probability_and_they_come_in_that_order) {
   const Folder folder;
   write_noisy_roll("0.3");

@@ -205,10 +205,6 @@ double deepest_of_samples(const Part& part, double radius, double s) {
   return deepest;
 }
 
-bool is_in(const Reach& reach, double s) {
-  return std::any_of(reach.arcs.begin(), reach.arcs.end(), [&](const Interval& arc) { return arc.contains(s); });
-}
-
 /// Its inner turns are one spiral of the part that turns by 4 pi, nearly all of it near the start.
 TEST(Reach, of_a_disk_beside_a_curve_that_bends_more_and_more_is_as_samples_say) {
   const Part part(gallery("log-spiral,a=1,b=1,turns=2"));
@@ -219,7 +215,7 @@ TEST(Reach, of_a_disk_beside_a_curve_that_bends_more_and_more_is_as_samples_say)
       const double s = part.perimeter() * std::pow(k / 300.0, 6);
       const double depth = deepest_of_samples(part, radius, s);
       if (depth > 0 && depth <= 10 * reach.slack) continue;
-      EXPECT_EQ(is_in(reach, s), depth == 0) << radius << ", s = " << s;
+      EXPECT_EQ(reach.contains(s), depth == 0) << radius << ", s = " << s;
     }
   }
 }
