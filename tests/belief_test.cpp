@@ -204,7 +204,7 @@ TEST(PoseSpread, holds_the_true_pose_as_often_as_it_should) {
     const rollfix::Log log = roll_on(part, radius, start, 3, 100, noise, random()).log;
     Belief belief = belief_in(part, log, radius, with(noise));
     const rollfix::Contact first{log.fingers[0].u.front(), log.fingers[0].psi.front()};
-    const double towards = first.facing();
+    const double towards = first.normal_direction();
     const rollfix::Vec2 where = rollfix::Vec2(log.fingers[0].x.front(), log.fingers[0].y.front()) +
                                 radius * rollfix::Vec2(std::cos(towards), std::sin(towards));
     const Mode* mode = mode_at(belief.modes(), start, part);

@@ -34,7 +34,24 @@ TEST(CliCertify, is_refused_where_its_turn_is_changed) {
   text.replace(at, 10, "\"turn\":0.1");
   folder.write("changed.json", text);
   EXPECT_EQ(verified("changed.json").code, 1);
-  EXPECT_EQ(verified("changed.json").out, "refused: row 0 turns by another angle\n");
+  EXPECT_THAT(verified("changed.json").out,
+              testing::MatchesRegex("refused: row 0, off, in tolerances: stated -?[0-9.e+]+, computed -?[0-9.e+]+\n"));
+}
+
+TEST(CliCertify, names_the_field_that_was_changed_by_hand) {
+  const Folder folder;
+  const std::string text = run("locate gallery:cam --reading 0.9,40deg --certify -").out;
+  const auto said_of = [&](const std::string& field, const std::string& instead) {
+    std::string changed = text;
+    changed.replace(changed.find(field), field.size(), instead);
+    folder.write("changed.json", changed);
+    EXPECT_EQ(verified("changed.json").code, 2);
+    return verified("changed.json").err;
+  };
+  EXPECT_EQ(said_of("\"turn\":", "\"turn\":\"40deg\",\"was\":"),
+            "rollfix-verify: changed.json: /readings/0/turn: expected number, found string\n");
+  EXPECT_EQ(said_of("\"turn\":", "\"turned\":"),
+            "rollfix-verify: changed.json: /readings/0: expected a field 'turn', found none\n");
 }
 
 TEST(CliCertify, proves_that_nothing_fits) {

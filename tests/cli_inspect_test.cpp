@@ -44,6 +44,13 @@ TEST(InspectLoops, say_which_was_taken_and_how_many_each_lies_in) {
   EXPECT_EQ(each("taken", inspected("plate.dxf --gap 0.02 --loop 2")["loops"]), Json({false, true}));
 }
 
+TEST(InspectLoops, with_a_gap_below_0_are_refused) {
+  const cli::Folder folder;
+  folder.write("plate.dxf", plate());
+  EXPECT_THAT(cli::run("inspect plate.dxf --gap -1").err,
+              testing::HasSubstr("--gap: expected a length of at least 0, found -1"));
+}
+
 TEST(InspectLoops, are_measured_and_say_how_far_their_curves_are_apart) {
   const cli::Folder folder;
   folder.write("plate.dxf", plate());

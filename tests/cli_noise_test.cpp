@@ -46,6 +46,28 @@ TEST(CliNoise, a_gyroscope_is_as_its_datasheet_has_it) {
   EXPECT_NEAR(noise("walk=0.5rad/sqrt(s)")["walk"], 0.5, 1e-15);
 }
 
+TEST(CliNoise, of_all_that_rows_measure_is_scaled_in_the_cure) {
+  const Folder folder;
+  run("simulate gallery:cam --finger disk,r=0.2 --start 1 --length 3 --samples 60 --seed 3 -o rough.csv "
+      "--noise contact=0.03,angle=0.03,position=0.03");
+  const std::string locate = "locate gallery:cam --log rough.csv --finger disk,r=0.2 ";
+  const std::string told = run(locate + "--noise contact=0.01,angle=0.01,position=0.01").out;
+  std::smatch cure;
+  ASSERT_TRUE(
+      std::regex_search(told, cure, std::regex("--noise contact=([0-9.]+),angle=[0-9.]+deg,position=([0-9.]+)")))
+      << told;
+  EXPECT_EQ(cure[1].str(), cure[2].str());
+  EXPECT_THAT(run(locate + cure[0].str()).out, Not(HasSubstr("fit badly")));
+}
+
+TEST(CliNoise, of_a_kind_that_two_fingers_do_not_have_is_refused) {
+  const Folder folder;
+  run("simulate gallery:cam --finger disk,r=0.2 --start 1 --start 3 --length 0.5 --length 0.4 -o a.csv -o b.csv");
+  EXPECT_EQ(run("locate gallery:cam --log a.csv --log b.csv --finger disk,r=0.2 --noise angle=0.01,drift=0.1").err,
+            "rollfix: noise of two fingers is contact, angle, slip, radius, position and correlation, found drift=0.1; "
+            "leave it out\n");
+}
+
 TEST(CliNoise, a_gyroscopes_noise_without_times_or_unit_is_refused) {
   const Folder folder;
   folder.write("drive.csv", "length,turn\n0.2,0.1\n0.4,0.3\n0.6,0.5\n");

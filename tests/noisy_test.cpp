@@ -111,6 +111,48 @@ TEST(Noisy, contact_and_angle_are_off_by_what_was_said_in_each_row) {
   EXPECT_NEAR(psi.mean, 0, 0.002);
 }
 
+TEST(Noisy, centres_are_off_by_what_was_said_in_each_row) {
+  const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(), {.position = 0.02}, 7);
+  const FingerRows& felt = found.log.fingers[0];
+  const FingerRows& true_rows = found.truth.log.fingers[0];
+  EXPECT_NEAR(spread_of(differences(felt.x, true_rows.x)).deviation, 0.02, 0.001);
+  EXPECT_NEAR(spread_of(differences(felt.y, true_rows.y)).deviation, 0.02, 0.001);
+  EXPECT_EQ(felt.u, true_rows.u);
+}
+
+/// Of errors: their mean product `rows` rows apart, over their variance.
+double correlation_of(const std::vector<double>& errors, std::size_t rows) {
+  double product = 0;
+  double square = 0;
+  for (std::size_t k = 0; k + rows < errors.size(); ++k) {
+    product += errors[k] * errors[k + rows];
+    square += errors[k] * errors[k];
+  }
+  return product / square;
+}
+
+TEST(Noisy, errors_are_alike_over_the_length_that_was_said) {
+  RollPlan plan = long_roll(60001);
+  plan.distance = 120;  // many of these lengths
+  const NoisyRoll found = noisy_roll(egg_part(), 0.2, plan, {.contact = 0.01, .angle = 0.03, .correlation = 0.05}, 7);
+  const std::vector<double> psi = differences(found.log.fingers[0].psi, found.truth.log.fingers[0].psi);
+  const std::vector<double> u = differences(found.log.fingers[0].u, found.truth.log.fingers[0].u);
+  EXPECT_NEAR(spread_of(psi).deviation, 0.03, 0.0015);
+  EXPECT_NEAR(0.2 * spread_of(u).deviation, 0.01, 0.0005);
+  // The finger turns evenly, so that the lengths between rows differ: of all rows on average about this.
+  const double length = 120 / 60000.0;
+  for (const std::size_t rows : {5U, 25U, 50U}) {
+    const double expected = std::exp(-length * static_cast<double>(rows) / 0.05);
+    EXPECT_NEAR(correlation_of(psi, rows), expected, 0.06) << rows;
+    EXPECT_NEAR(correlation_of(u, rows), expected, 0.06) << rows;
+  }
+}
+
+TEST(Noisy, increments_have_no_centres) {
+  EXPECT_THAT(refusal_of([] { noisy_increments(egg_part(), 1, 2, 9, {.position = 0.1}, 1); }),
+              HasSubstr("noise of simulated increments is contact, angle, slip, drift, walk and gyro"));
+}
+
 TEST(Noisy, of_an_outline_the_contact_is_off_in_length) {
   RollPlan plan = long_roll();
   plan.u = 0.1;

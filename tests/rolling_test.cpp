@@ -31,7 +31,7 @@ TEST(Rolling, on_a_circle_all_signs_are_as_in_the_picture) {
   const Part circle = part_of("circle,r=2");
   const double travelled = 0.75;  // angle around the circle's centre
   Roll found = roll(circle, finger, by_distance(0, R * travelled));
-  EXPECT_NEAR(contact_at(found, 0).facing(), kPi,
+  EXPECT_NEAR(contact_at(found, 0).normal_direction(), kPi,
               1e-12);  // it touches (2, 0) from outside: its contact lies to the left
   EXPECT_NEAR(found.log.fingers[0].x.front(), R + finger.radius, 1e-12);
   EXPECT_NEAR(found.log.fingers[0].y.front(), 0, 1e-12);

@@ -192,6 +192,7 @@ TEST(Tracker, says_which_part_of_a_catalog_it_is_as_identify_says) {
 }
 
 TEST(Tracker, says_that_rows_contradict_the_noise_on_every_part_of_a_catalog) {
+  const cli::Folder folder;
   const auto catalog = std::make_shared<const rollfix::Catalog>(catalogs::of({"ellipse,a=2,b=1", "cam"}));
   rollfix::Noise understated = watching::kNoise;
   understated.contact /= 2;

@@ -166,11 +166,13 @@ Place Boundary::on_piece(std::size_t curve, const Piece& piece, const Ball& u) c
   return {static_cast<long>(curve), u, piece.s_base + value(piece.length, x), piece.angle_base + value(piece.angle, x)};
 }
 
-/// Throws std::runtime_error: a parameter that the curve does not have.
+/// Throws std::domain_error, a refusal: a parameter that the curve does not have.
 Place Boundary::at(long curve, double u) const {
   const std::vector<Piece>& pieces = pieces_.at(static_cast<std::size_t>(curve));
   if (!(u >= pieces.front().lo && u <= pieces.back().hi))
-    throw std::runtime_error("a parameter beyond its curve's ends");
+    throw std::domain_error("the place [" + std::to_string(curve) + ", " + std::to_string(u) +
+                            "] is beyond its curve's ends, " + std::to_string(pieces.front().lo) + " and " +
+                            std::to_string(pieces.back().hi));
   auto piece = pieces.begin();
   while (u > piece->hi) ++piece;
   return on_piece(static_cast<std::size_t>(curve), *piece, u);

@@ -192,26 +192,40 @@ std::string described_holds(const Verdict& verdict) {
   return "proved but for " + but + ": " + found + "\n" + verdict.question;
 }
 
-}  // namespace
-
-/// A text that is no certificate of a known schema throws; a certificate that is wrong, or that costs too much, is
-/// refused in the verdict.
-Verdict check(const std::string& text) {
-  Verdict refused;
-  // Before anything is parsed: the budget of work begins only behind that.
-  if (text.size() > kMostBytes) {
-    refused.refusal = "not decided: the certificate is too long";
-    return refused;
+/// What a field lacks, for whoever wrote or changed the file by hand: "/readings/0/turn: expected number, found string"
+/// rather than the library's own words, "[json.exception.type_error.302] (/readings/0/turn) type must be ...".
+std::string in_words(const Json::exception& error) {
+  std::string text = error.what();
+  text.erase(0, text.find("] ") + 2);
+  // JSON_DIAGNOSTICS puts the path in front.
+  std::string path = "the document";
+  const std::size_t end = text.find(") ");
+  if (text.starts_with('(') && end != std::string::npos) {
+    path = text.substr(1, end - 1);
+    text.erase(0, end + 2);
   }
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw std::runtime_error("is no JSON document, expected one that locate --certify wrote");
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+  };
+  replace("type must be ", "expected ");
+  replace(", but is ", ", found ");
+  replace("cannot use at() with ", "expected more in it, found ");
+  replace("key ", "expected a field ");
+  replace(" not found", ", found none");
+  return path + ": " + text;
+}
+
+/// Refused in the verdict; throws where it is no certificate of a known schema.
+Verdict verdict_of(const Json& json) {
   const Json schema = json.is_object() && json.contains("schema") ? json["schema"] : Json();
   if (schema != kOneFinger && schema != kTwoFingers && schema != kTouches && schema != kHolds) {
-    throw std::runtime_error(std::string("it is no certificate of version ") + kOneFinger + ", " + kTwoFingers + ", " +
-                             kTouches + " or " + kHolds);
+    throw std::runtime_error(std::string("/schema: expected ") + kOneFinger + ", " + kTwoFingers + ", " + kTouches +
+                             " or " + kHolds + ", found " + (schema.is_null() ? "none" : plain(schema)));
   }
   // Before the budget: a certificate that lacks a field of the question throws, which is bad input and no refusal.
   const std::string question = question_of(json, schema);
+  Verdict refused;
   try {
     // All that follows spends from it.
     const Budget budget(kMostWork);
@@ -230,6 +244,26 @@ Verdict check(const std::string& text) {
     refused.refusal = error.what();
   }
   return refused;
+}
+
+}  // namespace
+
+/// A text that is no certificate of a known schema throws; a certificate that is wrong, or that costs too much, is
+/// refused in the verdict.
+Verdict check(const std::string& text) {
+  Verdict refused;
+  // Before anything is parsed: the budget of work begins only behind that.
+  if (text.size() > kMostBytes) {
+    refused.refusal = "not decided: the certificate is too long";
+    return refused;
+  }
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw std::runtime_error("is no JSON document, expected one that locate --certify wrote");
+  try {
+    return verdict_of(json);
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(in_words(error));
+  }
 }
 
 /// The first line has the verdict, the others the question.

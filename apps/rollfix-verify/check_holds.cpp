@@ -95,7 +95,7 @@ class Holds {
     for (std::size_t k = 0; k < question_.fingers.size(); ++k) {
       const Json& stated = set.at("first").at(k);
       first.push_back(document_.place_at(stated.at("at")));
-      if (!document_.is_as_far(first.back().s, number(stated.at("s")))) refuse(name + " starts elsewhere");
+      document_.require_as_far(first.back().s, number(stated.at("s")), name + ", first, s");
       // The extent is what P1 is about; the witness has to be in it.
       if (!is_on(extent[k], number(stated.at("s")))) refuse(name + " starts outside of itself");
       // What lies between the first contact and the others.
@@ -197,9 +197,11 @@ class Holds {
     // tau - phi must be within `angle` of those tangents: within `half` of their middle.
     const double half = 0.5 * spread(about) + finger.angle;
     const Ball off = to_nearest_turn(at.tangent - lie.heading - 0.5 * (about.lower() + about.upper()));
-    if (!abs(off).is_below((1 + kEdge) * half + kTurnSlack)) refuse(name + " has another tangent");
-    const Ball share = off - Ball(question_.mirrored(1)) * number(stated.at("off").at(1)) * half;
-    if (!abs(share).is_below(kAngleShare * half)) refuse(name + " is off by another share of its tolerance");
+    const Ball own = Ball(question_.mirrored(1)) * off * (1 / half);
+    const double share = number(stated.at("off").at(1));
+    if (!abs(off).is_below((1 + kEdge) * half + kTurnSlack) || !abs(own - share).is_below(kAngleShare)) {
+      refuse_number(name + ", off of the tangent, in tolerances", share, own);
+    }
   }
 
   /// Within `travel` of a place that the finger reaches.
@@ -239,7 +241,7 @@ class Holds {
       // The direction from the first finger's contact to the pin; it must be phi + psi - pi / 2.
       const Ball way = atan2(Ball(at.y) - finger.at[t].y, Ball(at.x) - finger.at[t].x);
       const Ball passes = to_nearest_turn(way - lie.heading - direction + 0.25 * full_turn());
-      require_off(passes, *wheel.line, kPlaceSlack, sign * number(off.at(1)), name + ", squeezed,");
+      require_off(sign * passes, *wheel.line, kPlaceSlack, number(off.at(1)), name + ", squeezed,");
     }
     if (!wheel.spin) return;
     // Heading and tangent are counted on from instant to instant, and from lap to lap.
@@ -256,7 +258,7 @@ class Holds {
       const Ball lap = boundary_.total_turn() + boundary_.perimeter() / wheel.radius;
       spun = spun - std::round((spun / lap).middle()) * lap;
     }
-    require_off(spun, *wheel.spin, kPlaceSlack * (1 + period_ / wheel.radius), sign * number(off.at(2)),
+    require_off(sign * spun, *wheel.spin, kPlaceSlack * (1 + period_ / wheel.radius), number(off.at(2)),
                 name + ", its encoder,");
   }
 

@@ -96,11 +96,12 @@ class OneFinger {
       const std::optional<Row> row = readings_[k].row_at(start);
       if (!row) refuse(name + " ends at a joint");
       const Place end = document_.place_at(stated.at("end").at(k));
-      if (!document_.is_as_far(row->end.s, end.s)) refuse(name + " ends elsewhere");
+      document_.require_as_far(row->end.s, end.s.middle(), name + ", end, as a place");
       // What rounded places change f by, through the curvature at both ends of the roll.
       const Ball slack = kTurnSlack + kRounding * period_ * (abs(row->from_start[0]) + abs(row->from_end[0]));
-      if (!abs(row->f - Ball(stated.at("off").at(k).get<double>()) * document_.tolerance()).is_below(slack)) {
-        refuse(name + " turns by another angle");
+      const auto off = stated.at("off").at(k).get<double>();
+      if (!abs(row->f - Ball(off) * document_.tolerance()).is_below(slack)) {
+        refuse_number(name + ", off, in tolerances", off, row->f * (1 / document_.tolerance()));
       }
       rows.push_back(*row);
     }

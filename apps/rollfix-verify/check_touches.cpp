@@ -239,7 +239,7 @@ class Touches {
   void check_contact(const CentreTree& tree, const StatedSet& set, const SoughtTouch& touch, const Json& stated,
                      const std::string& name) const {
     const Place place = document_.place_at(stated.at("at"));
-    if (!document_.is_as_far(place.s, number(stated.at("s")))) refuse(name + " is elsewhere");
+    document_.require_as_far(place.s, number(stated.at("s")), name + ", s");
     const Ball direction = direction_at(document_, tree, place, number(stated.at("tangent")), name);
     if (!is_considered(boundary_, question_.considered, place, number(stated.at("tangent"))))
       refuse(name + " is out of reach");
@@ -262,7 +262,7 @@ class Touches {
     if (!touch.tangent) return;
     // tau - Theta - phi, modulo turns.
     const Ball turn = to_nearest_turn(Ball(*touch.tangent) - direction - set.pose[2]);
-    require_off(turn, touch.angle, kTurnSlack, Ball(question_.mirrored(1)) * number(stated.at("off").at(1)), name);
+    require_off(question_.mirrored(1) * turn, touch.angle, kTurnSlack, number(stated.at("off").at(1)), name);
   }
 
   // ---- there is no other ----

@@ -138,7 +138,9 @@ class TwoFingers {
     const auto listed = stated.at("off").get<std::vector<double>>();
     if (listed.size() != off.size()) refuse(name + " does not say how far each equation is off");
     for (std::size_t k = 0; k < off.size(); ++k) {
-      if (!abs(off[k] - Ball(listed[k]) * tolerance_).is_below(slack)) refuse(name + " turns by another angle");
+      if (!abs(off[k] - Ball(listed[k]) * tolerance_).is_below(slack)) {
+        refuse_number(name + ", off, in tolerances", listed[k], off[k] * (1 / tolerance_));
+      }
     }
     return row;
   }

@@ -1,7 +1,9 @@
 #include "document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <vector>
 
@@ -27,7 +29,13 @@ constexpr double kMostGap = 1e-9;
 std::vector<Formula> formulas(const Json& curves) {
   std::vector<Formula> result;
   for (const Json& curve : curves) {
-    result.push_back(formula_of(curve.at("kind").get<std::string>(), curve.at("numbers").get<std::vector<double>>()));
+    const auto kind = curve.at("kind").get<std::string>();
+    const auto numbers = curve.at("numbers").get<std::vector<double>>();
+    try {
+      result.push_back(formula_of(kind, numbers));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("/curves/" + std::to_string(result.size()) + ": " + error.what());
+    }
   }
   return result;
 }
@@ -36,6 +44,13 @@ std::vector<Formula> formulas(const Json& curves) {
 
 /// A std::domain_error, which `check` turns into the verdict.
 void refuse(const std::string& why) { throw std::domain_error(why); }
+
+/// In so many digits that two doubles which differ by more than the slacks look different.
+void refuse_number(const std::string& what, double stated, const Ball& computed) {
+  std::array<char, 100> numbers;
+  std::snprintf(numbers.data(), numbers.size(), ": stated %.15g, computed %.15g", stated, computed.middle());
+  refuse(what + numbers.data());
+}
 
 /// Builds the boundary, and computes its length; nothing that is stated is compared yet. Certificates of touches and
 /// holds have no tolerance here.
@@ -56,14 +71,18 @@ void Document::check() const {
 /// T4: perimeter, largest gap and first point, to the slacks of document.hpp.
 void Document::check_outline() const {
   const double stated = json_.at("perimeter").get<double>();
-  if (!abs(boundary_.perimeter() - stated).is_below(kLengthSlack * period_)) refuse("the perimeter is another one");
+  if (!abs(boundary_.perimeter() - stated).is_below(kLengthSlack * period_)) {
+    refuse_number("perimeter", stated, boundary_.perimeter());
+  }
   if (!(period_ > 0)) refuse("the outline has no length");
   // An open outline that is stated as closed has a gap between its ends.
   if (!(boundary_.largest_gap() <= kMostGap * period_)) refuse("its curves do not meet");
   const double gap = json_.at("gap").get<double>();
-  if (!(std::abs(boundary_.largest_gap() - gap) <= kLengthSlack * period_)) refuse("its curves meet otherwise");
+  if (!(std::abs(boundary_.largest_gap() - gap) <= kLengthSlack * period_)) {
+    refuse_number("gap", gap, boundary_.largest_gap());
+  }
   const Place first = boundary_.at(0, boundary_.front(0).u.middle());
-  if (!is_at(boundary_.position(first), json_.at("origin"))) refuse("the outline starts elsewhere");
+  require_at(boundary_.position(first), json_.at("origin"), "origin");
 }
 
 /// L, in the outline's unit.
@@ -94,7 +113,7 @@ Interval Document::starts(const std::vector<Ball>& lengths) const {
 std::string Document::kind_of(const std::string& name, const Json& placement) {
   auto kind = placement.at("kind").get<std::string>();
   if (kind != "crossing" && kind != "touching" && kind != "corner" && kind != "stretch") {
-    refuse(name + " is of a kind that is not known");
+    refuse(name + ", kind: expected crossing, touching, corner or stretch, found '" + kind + "'");
   }
   // T2 leaves the tangent open there, so that a stated one would be believed unchecked.
   if (kind == "corner" && placement.contains("tangent")) refuse(name + " has a tangent, but pivots");
@@ -102,13 +121,14 @@ std::string Document::kind_of(const std::string& name, const Json& placement) {
 }
 
 /// To kPlaceSlack of the perimeter, in each coordinate.
-bool Document::is_at(const Point& point, const Json& stated) const {
-  const double slack = kPlaceSlack * period_;
-  return abs(point.x - stated.at(0).get<double>()).is_below(slack) &&
-         abs(point.y - stated.at(1).get<double>()).is_below(slack);
+void Document::require_at(const Point& point, const Json& stated, const std::string& what) const {
+  const auto x = stated.at(0).get<double>();
+  const auto y = stated.at(1).get<double>();
+  if (!abs(point.x - x).is_below(kPlaceSlack * period_)) refuse_number(what + ", x", x, point.x);
+  if (!abs(point.y - y).is_below(kPlaceSlack * period_)) refuse_number(what + ", y", y, point.y);
 }
 
-/// Refuses a curve, and throws std::runtime_error for a parameter, that is not there.
+/// Refuses a curve or a parameter that is not there.
 Place Document::place_at(const Json& stated) const {
   const auto curve = stated.at(0).get<long>();
   if (curve < 0 || curve >= boundary_.curves()) refuse("a place on a curve that is not there");
@@ -120,6 +140,10 @@ bool Document::is_as_far(const Ball& s, const Ball& stated) const {
   // The nearest number of whole laps.
   const Ball laps = boundary_.closed() ? Ball(std::round(off.middle() / period_)) * boundary_.perimeter() : Ball(0.0);
   return abs(off - laps).is_below(kLengthSlack * period_);
+}
+
+void Document::require_as_far(const Ball& s, double stated, const std::string& what) const {
+  if (!is_as_far(s, stated)) refuse_number(what, stated, s);
 }
 
 /// |kappa| times the slack of lengths. At rest kappa has no bound: there the angles beside the place are compared with
@@ -145,9 +169,9 @@ Place Document::contact(const std::string& name, const Json& placement, const Ba
     return finger ? all.at(*finger) : all;
   };
   Place start = place_at(stated("at"));
-  if (!is_as_far(start.s, stated("start").get<double>())) refuse(name + " starts elsewhere");
-  if (!is_as_far(start.s + length, stated("end").get<double>())) refuse(name + " ends elsewhere");
-  if (!is_at(boundary_.position(start), stated("point"))) refuse(name + " is at another point");
+  require_as_far(start.s, stated("start").get<double>(), name + ", start");
+  require_as_far(start.s + length, stated("end").get<double>(), name + ", end");
+  require_at(boundary_.position(start), stated("point"), name + ", point");
   if (placement.at("kind") == "corner") return start;
   // The angle between the curve's velocity and the stated tangent, which needs no unwrapping.
   const Point v = boundary_.velocity(start);
@@ -158,7 +182,9 @@ Place Document::contact(const std::string& name, const Json& placement, const Ba
   const Ball apart = atan2(v.y * c - v.x * s, v.x * c + v.y * s);
   // The place is known to a slack only, and the tangent turns over it.
   const Ball most = kPlaceSlack + turn_beside(start);
-  if (!abs(apart).is_below(most) || !(std::abs(tangent) < kHalfTurn)) refuse(name + " has another tangent");
+  if (!abs(apart).is_below(most) || !(std::abs(tangent) < kHalfTurn)) {
+    refuse_number(name + ", tangent", tangent, apart + tangent);
+  }
   return start;
 }
 
@@ -227,7 +253,7 @@ bool is_considered(const Boundary& boundary, const std::optional<Considered>& co
 /// convex one has all in between.
 Ball direction_at(const Document& document, const CentreTree& tree, const Place& place, double stated,
                   const std::string& name) {
-  if (!(std::abs(stated) <= kMostAngle)) refuse(name + " has another tangent");
+  if (!(std::abs(stated) <= kMostAngle)) refuse(name + ", tangent: an angle of too many turns");
   const Boundary& boundary = document.boundary();
   // Modulo whole turns.
   const auto near = [&](const Ball& one, const Ball& slack) {
@@ -252,15 +278,17 @@ Ball direction_at(const Document& document, const CentreTree& tree, const Place&
       if (abs(off).is_below(0.5 * spread(*pivots))) return stated;
     }
   }
-  refuse(name + " has another tangent");
+  refuse_number(name + ", tangent", stated, own);
 }
 
 /// `slack`: what doubles may have made of the stated numbers, in the residual's own unit.
-void require_off(const Ball& residual, double tolerance, double slack, const Ball& stated, const std::string& name) {
-  if (!abs(residual).is_below((1 + kEdge) * tolerance + slack)) refuse(name + " is off by more than its tolerance");
+void require_off(const Ball& residual, double tolerance, double slack, double stated, const std::string& name) {
   // The stated share must be the computed one: so every number of the pose is tied to the formulas.
-  if (!abs(residual - stated * tolerance).is_below(kEdge * tolerance + 2 * slack)) {
-    refuse(name + " is off by another share of its tolerance");
+  const bool is_within = abs(residual).is_below((1 + kEdge) * tolerance + slack);
+  const bool is_as_stated = abs(residual - Ball(stated) * tolerance).is_below(kEdge * tolerance + 2 * slack);
+  if (!is_within || !is_as_stated) {
+    refuse_number(name + ", off, in tolerances" + (is_within ? "" : ", of which it may be 1"), stated,
+                  residual * (1 / tolerance));
   }
 }
 

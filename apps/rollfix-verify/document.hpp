@@ -31,6 +31,8 @@ inline constexpr double kNear = 8;
 
 /// Ends the check: the certificate is refused.
 [[noreturn]] void refuse(const std::string& why);
+/// Likewise, where a stated number is not the one that follows from the formulas: "`what`: stated 1.5, computed 1.25".
+[[noreturn]] void refuse_number(const std::string& what, double stated, const Ball& computed);
 
 /// What certificates of one finger and of two have in common: the outline, and places on it.
 class Document {
@@ -57,8 +59,9 @@ class Document {
   /// Of [curve, its parameter].
   Place place_at(const Json& stated) const;
 
-  /// Whether that is as far along, but for whole laps.
+  /// Whether that is as far along, but for whole laps; refused where it is not.
   bool is_as_far(const Ball& s, const Ball& stated) const;
+  void require_as_far(const Ball& s, double stated, const std::string& what) const;
 
   /// A placement's kind: one that there is; a tangent is told unless the finger pivots.
   static std::string kind_of(const std::string& name, const Json& placement);
@@ -72,7 +75,7 @@ class Document {
   Ball turn_beside(const Place& place) const;
 
  private:
-  bool is_at(const Point& point, const Json& stated) const;
+  void require_at(const Point& point, const Json& stated, const std::string& what) const;
 
   const Json& json_;
   Boundary boundary_;
@@ -103,6 +106,6 @@ Ball direction_at(const Document& document, const CentreTree& tree, const Place&
                   const std::string& name);
 
 /// A residual is within its tolerance, and as it is stated, in tolerances.
-void require_off(const Ball& residual, double tolerance, double slack, const Ball& stated, const std::string& name);
+void require_off(const Ball& residual, double tolerance, double slack, double stated, const std::string& name);
 
 }  // namespace rollfix_verify

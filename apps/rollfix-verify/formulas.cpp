@@ -416,7 +416,8 @@ Formula formula_of(const std::string& kind, const Numbers& numbers) {
   if (found == kinds().end()) throw std::runtime_error("the curve kind '" + plain + "' is not known");
   const auto& [count, make] = found->second;
   if (count != 0 && count != own.size())
-    throw std::runtime_error("a curve of kind '" + plain + "' with a wrong number of numbers");
+    throw std::runtime_error("a curve of kind '" + plain + "': expected " + std::to_string(count) + " numbers, found " +
+                             std::to_string(own.size()));
   Formula formula = make(own);
   if (factor) formula = scaled(formula, *factor);
   return is_reversed ? reversed(formula) : formula;

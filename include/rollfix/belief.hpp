@@ -211,7 +211,7 @@ struct Diagnosis {
 /// there, radians.
 struct MeasuredContact {
   Vec2 where = Vec2::Zero();
-  double facing = 0;
+  double normal = 0;
   double finger_curvature = 0;
 };
 

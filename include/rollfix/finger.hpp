@@ -36,7 +36,7 @@ struct Contact {
   double psi = 0;  // the finger's orientation in the world, radians, counter-clockwise
 
   /// Of a disk: direction in the world from its centre to the contact, the part's inward normal there.
-  double facing() const { return u + psi; }
+  double normal_direction() const { return u + psi; }
 };
 
 /// A finger of any convex shape: a disk, a flat jaw, or an outline. Its body lies on the left of its own boundary.
@@ -115,7 +115,7 @@ void require_fingers(const std::vector<Finger>& fingers, std::size_t rolled, boo
 void require_no_corners(const std::vector<Finger>& fingers, const std::string& what);
 
 /// N(u) + psi: the direction of the contact's normal in the world, out of the finger and into the part.
-double facing(const Finger& finger, const Contact& contact);
+double normal_direction(const Finger& finger, const Contact& contact);
 
 /// Eqs. (1)-(3) integrated: L = -(arc length on the finger), theta = (N(u1) - N(u0)) + (psi1 - psi0). Angles unwrapped,
 /// and so is u of a closed outline. Of a disk N = u, of a jaw N stays. `within`: how far u may be off, length. A

@@ -121,8 +121,10 @@ struct RollError {
 ///  * slip: one normal e per roll with this standard deviation;
 ///  * radius: a disk's true radius is r + N(0, radius), one per roll, and the log's reader takes r;
 ///  * contact: in each row u is off by N(0, contact) along the finger, of a disk by that over r;
-///  * angle: in each row psi is off by N(0, angle).
-/// The finger's centre in the world is without error.
+///  * angle: in each row psi is off by N(0, angle);
+///  * position: in each row x and y of its centre are off by N(0, position) each;
+///  * correlation: these errors of two rows that are x of roll apart have the correlation exp(-x / correlation);
+///  * gyro, drift, walk: psi as a gyroscope has it that is off by these.
 struct NoisyRoll {
   Log log;
   Roll truth;
@@ -145,7 +147,7 @@ struct NoisyIncrements {
 };
 
 /// From s = start over this length along the stored outline, in so many equal steps of the true length. Each distance
-/// is off by N(0, contact), each dturn by N(0, angle); slip as above. `seconds`: that it takes, at an even speed; 0:
+/// is off by N(0, contact), each dturn by N(0, angle); slip and a gyroscope as above, and no other noise is taken. `seconds`: that it takes, at an even speed; 0:
 /// the log has no times. Throws InputError likewise, and: no row, a length that is not finite, a way off the ends of an
 /// open part.
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
@@ -211,7 +213,7 @@ struct RigPlan {
 /// stable. That a finger hits the part elsewhere, or the other finger, is not checked (see overlap_of).
 Roll roll_rig(const Part& part, const RigPlan& plan);
 
-/// With noise as in noisy_roll_free; and `position`: in each row x and y of the pin are off by N(0, position). The pin
+/// With noise as in noisy_roll_free, but that `position` is of the pin alone. The pin
 /// goes the planned way against a jaw that does not slip.
 NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noise, std::uint64_t seed);
 

@@ -15,8 +15,9 @@
 //   i, j, p_i       places that are left, and their probabilities: Hypothesis
 //   x               length of a roll on a way; y_i, V_i: the turn that place i would measure then, and its variance:
 //                   Seen
-//   d_ij^2          the largest (y_i - y_j)^2 / (V_i + V_j) on the way: `distance_`
-//   q_j             p_j exp(-d_ij^2 / 2) over their sum: what j is worth where i is true: `left`
+//   d_ij^2          the largest (y_i - y_j)^2 / (V_i + V_j) on the way: `distance_`. The row's own noise is in both:
+//                   exp(-d^2 / 2) is the mean of j's likelihood over what may be measured where i is true
+//   q_j             p_j exp(-d_ij^2 / 2) over their sum: what j is worth where i is true: `posterior`
 //   bits            H(p) - sum over i of p_i H(q), H being the entropy
 //   f_ij, b_ij      the travel on and back that tells j from a true i: `told`, Other
 //   left            where i is true, on to the last f and back to the last b, the shorter way twice: `shorter_way`
@@ -268,19 +269,19 @@ ExpectedGain Comparison::expected(double x) const {
   }
   ExpectedGain gain{x, 0, entropy(prior)};
   // q_j, and their sums over each placement
-  std::vector<double> left(n);
+  std::vector<double> posterior(n);
   std::vector<double> of_label(labels);
   for (std::size_t i = 0; i < n; ++i) {
     // Hypothesis i is the true one: what the others are worth then.
     double total = 0;
-    for (std::size_t j = 0; j < n; ++j) total += left[j] = prior[j] * std::exp(-0.5 * distance_[i * n + j]);
+    for (std::size_t j = 0; j < n; ++j) total += posterior[j] = prior[j] * std::exp(-0.5 * distance_[i * n + j]);
     std::fill(of_label.begin(), of_label.end(), 0);
     for (std::size_t j = 0; j < n; ++j) {
-      left[j] /= total;
-      of_label[hypotheses_[j].hypothesis.label] += left[j];
+      posterior[j] /= total;
+      of_label[hypotheses_[j].hypothesis.label] += posterior[j];
     }
     // What is left of the entropy if i is the true one, weighed by p_i.
-    gain.bits -= prior[i] * entropy(left);
+    gain.bits -= prior[i] * entropy(posterior);
     // Placements and not hypotheses: of a wide placement several places are one.
     const double least = least_of(of_label);
     // how many placements remain if i is the true one

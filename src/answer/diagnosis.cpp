@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "roll/noise_kinds.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "weighing.hpp"
@@ -140,9 +141,7 @@ class Diagnostician {
     // Errors that are alike are what every other mistake looks like as well: they come last.
     if (as_said_.is_correlated()) return;
     Problem noisier = problem_;
-    noisier.noise->contact *= as_said_.excess;
-    noisier.noise->angle *= as_said_.excess;
-    noisier.noise->position *= as_said_.excess;
+    noisier.noise = with_rows_as_noisy(*problem_.noise, as_said_.excess);
     // Beyond that angle a belief is not computed.
     if (!(noisier.noise->angle <= BeliefOptions::kMostAngle)) return;
     // Of two fingers as the answer itself is: what wide noise leaves may be long, and it is the likeliest of all.

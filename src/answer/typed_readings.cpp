@@ -42,21 +42,23 @@ Rounding common_rounding(const std::vector<std::string_view>& fields, const std:
 }
 
 /// For the message: decimal commas give more numbers than were meant.
-std::string found_instead(std::size_t count) {
+std::string found_instead(std::size_t count, std::size_t expected) {
   if (count == 1) return "1 number";
-  return fmt::format("{} numbers; are there decimal commas among them?", count);
+  return fmt::format("{} numbers{}", count, count > expected ? "; are there decimal commas among them?" : "");
 }
 
 /// Throws InputError: not three fields where the readings are of two fingers, else not two.
 void require_fields(std::size_t count, bool of_two, const std::string& what) {
   if (of_two && count != 3) {
     throw InputError(
-        fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, found {}", what, found_instead(count)));
+        fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, for another reading has three numbers, "
+                    "found {}",
+                    what, found_instead(count, 3)));
   }
   if (!of_two && count != 2) {
     throw InputError(
         fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
-                    what, found_instead(count)));
+                    what, found_instead(count, 2)));
   }
 }
 

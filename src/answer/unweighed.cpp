@@ -9,6 +9,7 @@
 #include "locate/corner_sets.hpp"
 #include "log/jitter.hpp"
 #include "outline/turn.hpp"
+#include "roll/noise_kinds.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 #include "weighing.hpp"
@@ -167,8 +168,7 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
       // No noise was stated: the cause is not more noise than stated, but noise of this size that was not stated.
       if (one.cause != Cause::noise) continue;
       one.cause = Cause::unsaid_noise;
-      one.noise.contact *= one.noise_scale;
-      one.noise.angle *= one.noise_scale;
+      one.noise = with_rows_as_noisy(one.noise, one.noise_scale);
     }
     return found;
   }

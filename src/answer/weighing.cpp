@@ -38,7 +38,7 @@ std::optional<MeasuredContact> first_felt(const Problem& problem, std::size_t wh
   const Finger& finger = *finger_of(problem.fingers, which);
   const Contact first{rows.u.front(), rows.psi.front()};
   const Vec2 where = Vec2(rows.x.front(), rows.y.front()) - centre_of(finger, Vec2::Zero(), first);
-  return MeasuredContact{where, facing(finger, first), finger.curvature(first.u)};
+  return MeasuredContact{where, normal_direction(finger, first), finger.curvature(first.u)};
 }
 
 /// The part's pose with its covariance for each placement, from the centres at the first contact. Nothing where some

@@ -13,7 +13,7 @@
 //   eps, gamma      scale of lengths and of a gyroscope's turns: variances `start_`(2, 2), (3, 3)
 //   b               a gyroscope's bias: variance `start_`(4, 4)
 //   kappa           here the finger's curvature, 1 / r: `finger_curvature`
-//   R, P0, K        `row()`, `start()`, and what gathers from row to row: `gathered()`
+//   R, P0, G        `row()`, `start()`, and what gathers from row to row: `gathered()`
 //   mark            a measured length with its variance, of the rows that were joined for it: Travel::Mark
 //   sd              of the difference of two lengths: with `per_row_` for each row between them where errors add up
 //   apart           two lengths that differ by `kFarthest` sd or more: `certain`

@@ -242,9 +242,9 @@ double Nodes::turn_gathered() const {
 }
 
 /// At one instant: the direction from a to b in the world, less the mean of both normals, which turn with the part.
-PairCentres PairCentres::of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing) {
+PairCentres PairCentres::of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& normals) {
   const Vec2 way = felt[1].centre - felt[0].centre;
-  return {way.norm(), std::atan2(way.y(), way.x()) - 0.5 * (facing[0] + facing[1]), {felt[0].arm, felt[1].arm}};
+  return {way.norm(), std::atan2(way.y(), way.x()) - 0.5 * (normals[0] + normals[1]), {felt[0].arm, felt[1].arm}};
 }
 
 /// A node that stands for those passed over has gathered what they have.

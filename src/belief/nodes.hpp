@@ -146,8 +146,8 @@ struct PairCentres {
   double direction = 0;      // of b from a, less the middle of both contacts' normals; radians, up to half turns
   std::array<Arm, 2> arm{};  // to the contacts
 
-  /// `facing`: of both contacts, N(u) + psi.
-  static PairCentres of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing);
+  /// `normals`: of both contacts, N(u) + psi.
+  static PairCentres of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& normals);
 };
 
 /// Neighbouring rows of two fingers' roll as one.

@@ -98,7 +98,7 @@ constexpr double kAngleStep = 1e-6;
 /// counting for the rest.
 Pose pose_with(const Part& part, const MassPiece& piece, const PerFinger<MeasuredContact>& felt, double chord) {
   const auto heading_by = [&](std::size_t finger) {
-    return felt[finger].facing - 0.5 * std::numbers::pi - piece.tangent[finger];
+    return felt[finger].normal - 0.5 * std::numbers::pi - piece.tangent[finger];
   };
   Pose pose{0, 0, heading_by(0)};
   // Angles are averaged by their difference: half of it, the shorter way.
@@ -122,8 +122,8 @@ Pose pose_with(const Part& part, const MassPiece& piece, const PerFinger<Measure
 MeasuredContact moved(const MeasuredContact& contact, double along, double angle) {
   MeasuredContact off = contact;
   const double turn = along * contact.finger_curvature + angle;
-  off.facing += turn;
-  const Vec2 tangent(-std::sin(contact.facing), std::cos(contact.facing));
+  off.normal += turn;
+  const Vec2 tangent(-std::sin(contact.normal), std::cos(contact.normal));
   // A finger that is turned by `angle` about its centre carries its contact along by r times that; of a jaw this is
   // left out.
   const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
@@ -152,7 +152,7 @@ Eigen::Matrix3d sensors_of_one(const MeasuredContact& felt, const Pose& mean, co
   const Vec2 arm = felt.where - Vec2(mean.x, mean.y);  // from the contact to the origin, turned back
   // The pose by a turn about the contact: the origin moves across the arm.
   const Eigen::Vector3d by_turn(arm.y(), -arm.x(), 1);
-  const Eigen::Vector3d along(-std::sin(felt.facing), std::cos(felt.facing), 0);  // counter-clockwise
+  const Eigen::Vector3d along(-std::sin(felt.normal), std::cos(felt.normal), 0);  // counter-clockwise
   const Eigen::Vector3d by_contact = along + felt.finger_curvature * by_turn;
   Eigen::Vector3d by_angle = by_turn;
   if (felt.finger_curvature > 0) by_angle += along / felt.finger_curvature;

@@ -56,7 +56,7 @@ struct CentreModel {
   const BoundaryPath* path = nullptr;  // where centres are evidence
   bool has_place = false;              // the centre was felt; else only the normal
   FeltCentre first;                    // at the first contact
-  double facing = 0;                   // N(u) + psi at the first contact, radians
+  double normal = 0;                   // N(u) + psi at the first contact, radians
   double variance = 0;      // of a coordinate, each row on its own; 0: they are no evidence, but tell the pose
   double radius_share = 0;  // of the variance of the scale of lengths, as far as it is a wrong radius
 };

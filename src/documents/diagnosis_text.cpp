@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "documents/documents.hpp"
+#include "roll/noise_kinds.hpp"
 #include "rollfix/documents.hpp"
 #include "text/text.hpp"
 
@@ -100,16 +101,15 @@ std::string known_scale(const Diagnosis& diagnosis) {
   return "";
 }
 
-std::string noise_option(const Noise& noise, double scale) {
+/// As it is typed.
+std::string noise_option(const Noise& noise) {
   std::vector<std::string> fields;
   for (const NoiseKind& kind : kNoiseKinds) {
     const double sd = noise.*kind.sd;
     if (sd <= 0) continue;
-    const bool is_of_rows = &(noise.*kind.sd) == &noise.contact || &(noise.*kind.sd) == &noise.angle;
-    const double now = is_of_rows ? scale * sd : sd;
     const bool is_angle = kind.unit == NoiseKind::Unit::angle;
-    fields.push_back(is_angle ? fmt::format("{}={:.3g}deg", kind.name, now * 180 / std::numbers::pi)
-                              : fmt::format("{}={:.3g}", kind.name, now));
+    fields.push_back(is_angle ? fmt::format("{}={:.3g}deg", kind.name, sd * 180 / std::numbers::pi)
+                              : fmt::format("{}={:.3g}", kind.name, sd));
   }
   return fmt::format("--noise {}", fmt::join(fields, ","));
 }
@@ -130,19 +130,19 @@ std::string columns_option(const std::vector<ColumnSource>& columns) {
 
 /// What is to be given, without the noise that it is to be given with.
 std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
-  if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise, 1);
+  if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise);
   if (diagnosis.cause == Cause::slip || diagnosis.cause == Cause::gyroscope) {
     Noise more = noise;
     if (diagnosis.cause == Cause::slip) more.slip = diagnosis.slip;
     if (diagnosis.cause == Cause::gyroscope) more.gyro = diagnosis.gyro;
-    return noise_option(more, 1);
+    return noise_option(more);
   }
   if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
   if (diagnosis.cause == Cause::fingers_swapped) {
     if (fingers.size() != 2) return "give both in the other order";
     return fmt::format("{} {}", finger_option(fingers[1]), finger_option(fingers[0]));
   }
-  if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
+  if (diagnosis.cause == Cause::noise) return noise_option(with_rows_as_noisy(noise, diagnosis.noise_scale));
   if (diagnosis.cause == Cause::radius) {
     const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),
                                                           [](const Finger& finger) { return finger.is_disk(); });
@@ -173,19 +173,6 @@ std::string named(std::size_t finger, const HoldAnswer& answer) {
 std::string whose(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
   if (!diagnosis.finger) return "of all logs";
   return fmt::format("of {}, {},", plain(answer.rolls[*diagnosis.finger].name), named(*diagnosis.finger, answer));
-}
-
-/// As it was typed, with other numbers.
-std::string noise_option(const Noise& noise) {
-  std::string fields;
-  for (const NoiseKind& kind : kNoiseKinds) {
-    const double sd = noise.*kind.sd;
-    if (sd <= 0) continue;
-    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
-    fields += fmt::format("{}{}={:.3g}{}", fields.empty() ? "" : ",", kind.name,
-                          is_angle ? sd * 180 / std::numbers::pi : sd, is_angle ? "deg" : "");
-  }
-  return "--noise " + fields;
 }
 
 /// The first finger that it is about, as it is and as it would be.
@@ -233,7 +220,7 @@ std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& finge
   const std::string cure = cure_alone(diagnosis, fingers, is_any(said) ? said : diagnosis.noise);
   const bool is_all =
       is_any(said) || !is_any(diagnosis.noise) || !cure.starts_with("--") || cure.find("--noise") != std::string::npos;
-  return is_all ? cure : fmt::format("{} {}", cure, noise_option(diagnosis.noise, 1));
+  return is_all ? cure : fmt::format("{} {}", cure, noise_option(diagnosis.noise));
 }
 
 std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {

@@ -234,7 +234,11 @@ LoadedPart of_drawing(Drawing drawing, const LoadOptions& options) {
     for (DrawnCurve& one : drawing.curves) one.curve = scaled(one.curve, factor);
   }
   LoopOptions joining;
-  if (options.gap) joining.gap = in_unit(*options.gap, states_a_length(unit) ? unit : "", "`gap`");
+  if (options.gap) {
+    joining.gap = in_unit(*options.gap, states_a_length(unit) ? unit : "", "`gap`");
+    if (!(*joining.gap >= 0))
+      throw InputError(fmt::format("`gap`: expected a length of at least 0, found {}", *joining.gap));
+  }
   joining.outer = options.outer;
   Loops found = loops(drawing, joining);
   drawing.curves = std::vector<DrawnCurve>();  // what follows takes memory
@@ -325,9 +329,11 @@ LoadedPart of_file(FileKind kind, std::string text, const std::string& name, con
       return of_saved_part(text, name, options);
     case FileKind::json:
       return of_json(text, name, options);
-    default:
-      return load_points(std::move(text), name, options);
+    case FileKind::gallery:  // is no file
+    case FileKind::points:
+      break;
   }
+  return load_points(std::move(text), name, options);
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ void require_no_corners(const std::vector<Finger>& fingers, const std::string& w
   }
 }
 
-double facing(const Finger& finger, const Contact& contact) { return finger.normal(contact.u) + contact.psi; }
+double normal_direction(const Finger& finger, const Contact& contact) { return finger.normal(contact.u) + contact.psi; }
 
 /// Eq. (3). On corners N is an interval at both ends: theta is its middle, `pivot` half of both widths together.
 Reading reading_between(const Finger& finger, const Contact& first, const Contact& last, double within) {
@@ -207,7 +207,7 @@ Contact contact_at(const Finger& finger, double tangent, double u) {
 
 /// The point less R(psi) times the place on the finger.
 Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) {
-  if (finger.is_disk()) return point - finger.length_per_u() * unit_vector(contact.facing());
+  if (finger.is_disk()) return point - finger.length_per_u() * unit_vector(contact.normal_direction());
   const Vec2 x = unit_vector(contact.psi);
   const Vec2 on_finger = finger.point(contact.u);
   return point - (on_finger.x() * x + on_finger.y() * Vec2(-x.y(), x.x()));

@@ -81,7 +81,7 @@ void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
     HeldContact contact;
     contact.travelled = reading_between(finger, contacts.front(), contacts[row]).length[0];
     // The normal u + psi points into the part, a quarter turn to the left of the tangent.
-    contact.tangent = facing(finger, contacts[row]) - 0.5 * std::numbers::pi;
+    contact.tangent = normal_direction(finger, contacts[row]) - 0.5 * std::numbers::pi;
     // The centre of a finger that touches at the origin, taken back: from the centre to the contact.
     contact.lever = -centre_of(finger, Vec2::Zero(), contacts[row]);
     if (!rows.x.empty()) contact.at = Vec2(rows.x[row], rows.y[row]) + contact.lever;

@@ -11,6 +11,7 @@
 #include "held_rows.hpp"
 #include "log/log_rows.hpp"
 #include "log/mirrored.hpp"
+#include "roll/noise_kinds.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/error.hpp"
 
@@ -156,18 +157,8 @@ void require_weighing(const HoldProblem& problem) {
 void require_noise(const HoldProblem& problem) {
   const Noise& noise = *problem.noise;
   rollfix::require_valid(noise);
-  // All other kinds must be 0.
-  constexpr std::array<double Noise::*, 5> kTaken = {&Noise::contact, &Noise::angle, &Noise::slip, &Noise::radius,
-                                                     &Noise::position};
-  for (const NoiseKind& kind : kNoiseKinds) {
-    bool is_taken = false;
-    for (double Noise::*const sd : kTaken) is_taken = is_taken || kind.sd == sd;
-    if (is_taken || noise.*kind.sd == 0) continue;
-    refuse(
-        fmt::format("noise of three and more fingers is contact, angle, slip, radius and position, found {}={}; "
-                    "leave it out",
-                    kind.name, noise.*kind.sd));
-  }
+  require_kinds(noise, {&Noise::contact, &Noise::angle, &Noise::slip, &Noise::radius, &Noise::position},
+                "three and more fingers");
   if (noise.contact <= 0 && noise.angle <= 0) {
     refuse(
         "expected a standard deviation of the contact or of the angle above 0, found neither; give noise with "

@@ -60,9 +60,14 @@ class HoldWeighing {
       return;
     }
     std::vector<HoldMode> modes = modes_about(fit, problem_.part, optima, known);
-    // At least so many sets have no mode that counts. A set may have several modes.
-    answer_.improbable = found.size() - std::min(found.size(), modes.size());
-    drop_overlaps(modes, all);
+    // A set may have several modes, or none: it is improbable unless one of them is listed, or can't be for an overlap.
+    std::vector<bool> is_told(found.size());
+    answer_.improbable = found.size();
+    const auto tell = [&](std::size_t set) {
+      if (!is_told[set]) --answer_.improbable;
+      is_told[set] = true;
+    };
+    drop_overlaps(modes, all, tell);
     modes = by_poses(fit, modes);
     if (modes.empty()) return;
     // Weights over their sum, the largest taken out against underflow.
@@ -74,10 +79,10 @@ class HoldWeighing {
     for (const HoldMode& mode : modes) {
       const double probability = std::exp(mode.log_weight - most) / sum;
       if (probability < kLeastListed) {
-        ++answer_.improbable;
         answer_.rest += probability;
         continue;
       }
+      tell(mode.set);
       HoldPlacement placement = posterior_of(mode, mode.best, fit, known[mode.set]);
       // On a ridge that is flat the best place is anywhere.
       if (!are_within(placement)) placement = posterior_of(mode, middle_of(mode, placement), fit, known[mode.set]);
@@ -120,7 +125,8 @@ class HoldWeighing {
   }
 
   /// Drops nodes at which fingers must enter each other, and modes without any other node, which are counted.
-  void drop_overlaps(std::vector<HoldMode>& modes, const HeldRows& rows) {
+  template <class Tell>
+  void drop_overlaps(std::vector<HoldMode>& modes, const HeldRows& rows, const Tell& tell) {
     const FingersApart apart(problem_, rows);
     const auto is_possible = [&](const HoldNode& node) {
       std::vector<Interval> arcs;
@@ -132,7 +138,11 @@ class HoldWeighing {
       }
       return !apart.must_overlap(arcs);
     };
-    answer_.overlap += std::erase_if(modes, [&](HoldMode& mode) { return !keep_nodes(mode, is_possible); });
+    answer_.overlap += std::erase_if(modes, [&](HoldMode& mode) {
+      const bool is_dropped = !keep_nodes(mode, is_possible);
+      if (is_dropped) tell(mode.set);
+      return is_dropped;
+    });
   }
 
   /// Each mode once for each way the part may lie at the ends.

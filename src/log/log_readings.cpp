@@ -375,7 +375,7 @@ std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers)
     const FingerRows& rows = log.fingers[which];
     const Contact first{rows.u.front(), rows.psi.front()};
     const Finger* const finger = finger_of(fingers, which);
-    return finger != nullptr ? facing(*finger, first) : first.facing();
+    return finger != nullptr ? normal_direction(*finger, first) : first.normal_direction();
   };
   return nearest_angle(direction(0) - direction(1));
 }

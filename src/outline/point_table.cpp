@@ -80,9 +80,12 @@ LineKind read_line(std::string_view line, Vec2& point) {
       throw InputError(where +
                        " mixes separators, expected 'x y' or 'x,y' with decimal points, not commas, "
                        "which `decimal_comma` takes");
-    default:
-      throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
+    case LineKind::blank:
+    case LineKind::point:
+    case LineKind::words:
+      break;
   }
+  throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
 }
 
 /// Throws InputError: a file that is no plain text, by its first bytes. Each kind has its own cure.

@@ -153,9 +153,10 @@ Solution solve(const Question& question) {
       return solve(rest_problem(question));
     case QuestionKind::moving:
       return solve(moving_problem(question));
-    default:
-      return solve(roll_problem(question));
+    case QuestionKind::roll:
+      break;
   }
+  return solve(roll_problem(question));
 }
 
 /// Questions are independent: each has a solution or a message.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -7,6 +9,7 @@
 #include "log/roll_rows.hpp"
 #include "log/wrapping.hpp"
 #include "part/part_data.hpp"
+#include "roll/noise_kinds.hpp"
 #include "roll/normal_numbers.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
@@ -124,11 +127,59 @@ void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& n
   }
 }
 
-/// In each row, independently: u by `contact`, a length along the finger, and psi by `angle`, radians.
+/// What rows are off by in one coordinate: independent of each other, or alike over `correlation`, length. Then the
+/// errors of two rows that are x of roll apart have the correlation exp(-x / `correlation`).
+class RowErrors {
+ public:
+  RowErrors(double sd, double correlation, rolling::NormalNumbers& normal)
+      : sd_(sd), correlation_(correlation), normal_(normal) {}
+
+  /// Of the next row, after `rolled`, length, since the one before.
+  double next(double rolled) {
+    const double fresh = normal_.next(sd_);
+    if (correlation_ == 0) return fresh;
+    const double alike = is_first_ ? 0 : std::exp(-std::abs(rolled) / correlation_);
+    is_first_ = false;
+    return last_ = alike * last_ + std::sqrt(1 - alike * alike) * fresh;
+  }
+
+ private:
+  double sd_;
+  double correlation_;
+  rolling::NormalNumbers& normal_;
+  double last_ = 0;
+  bool is_first_ = true;
+};
+
+/// How far the finger rolls from each row to the next, length; 0 at the first.
+std::vector<double> rolled_between(const FingerRows& rows, const Finger& finger) {
+  std::vector<double> rolled(rows.u.size());
+  for (std::size_t row = 1; row < rows.u.size(); ++row) {
+    rolled[row] = (rows.u[row] - rows.u[row - 1]) * finger.length_per_u();
+  }
+  return rolled;
+}
+
+/// In each row u by `contact`, a length along the finger, and psi by `angle`, radians.
 void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, rolling::NormalNumbers& normal) {
+  const std::vector<double> rolled = rolled_between(rows, finger);
+  RowErrors contact(noise.contact, noise.correlation, normal);
+  RowErrors angle(noise.angle, noise.correlation, normal);
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
-    rows.u[row] += normal.next(noise.contact) / finger.length_per_u();
-    rows.psi[row] += normal.next(noise.angle);
+    rows.u[row] += contact.next(rolled[row]) / finger.length_per_u();
+    rows.psi[row] += angle.next(rolled[row]);
+  }
+}
+
+/// In each row both coordinates of the finger's centre, or of a wheel's pin.
+void add_noise_of_centres(FingerRows& rows, const std::vector<double>& rolled, const Noise& noise,
+                          rolling::NormalNumbers& normal) {
+  if (noise.position == 0) return;
+  RowErrors x(noise.position, noise.correlation, normal);
+  RowErrors y(noise.position, noise.correlation, normal);
+  for (std::size_t row = 0; row < rows.x.size(); ++row) {
+    rows.x[row] += x.next(rolled[row]);
+    rows.y[row] += y.next(rolled[row]);
   }
 }
 
@@ -157,6 +208,27 @@ void require_valid(const Noise& noise) {
     if (sd >= 0 && std::isfinite(sd)) continue;
     throw InputError(fmt::format("{} noise of {}: expected finite standard deviations of at least 0", kind.name, sd));
   }
+}
+
+void require_kinds(const Noise& noise, std::initializer_list<double Noise::*> known, std::string_view of_what) {
+  std::vector<std::string_view> names;
+  for (double Noise::*const sd : known) {
+    const auto is_it = [sd](const NoiseKind& kind) { return kind.sd == sd; };
+    names.emplace_back(std::find_if(kNoiseKinds.begin(), kNoiseKinds.end(), is_it)->name);
+  }
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const bool is_known = std::find(known.begin(), known.end(), kind.sd) != known.end();
+    if (is_known || noise.*kind.sd == 0) continue;
+    throw InputError(fmt::format("noise of {} is {} and {}, found {}={}; leave it out", of_what,
+                                 fmt::join(names.begin(), names.end() - 1, ", "), names.back(), kind.name,
+                                 noise.*kind.sd));
+  }
+}
+
+Noise with_rows_as_noisy(const Noise& noise, double times) {
+  Noise noisier = noise;
+  for (double Noise::*const sd : {&Noise::contact, &Noise::angle, &Noise::position}) noisier.*sd *= times;
+  return noisier;
 }
 
 /// By how much the variance of the turn grows between two instants, radians squared. If drift and walk are both 0, the
@@ -245,6 +317,7 @@ NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& pla
   const Finger real = true_finger(finger, result.error[0]);
   result.truth = real.has_corners() ? slipping_roll(part, real, plan, result.error[0].slip) : roll(part, real, plan);
   let_sense(result, {real}, noise, normal);
+  add_noise_of_centres(result.log.fingers[0], rolled_between(result.truth.log.fingers[0], real), noise, normal);
   return result;
 }
 
@@ -269,6 +342,10 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
   }
   result.truth = roll_free(part, real);
   let_sense(result, {real.fingers[0].finger, real.fingers[1].finger}, noise, normal);
+  for (std::size_t k = 0; k < 2; ++k) {
+    add_noise_of_centres(result.log.fingers[k], rolled_between(result.truth.log.fingers[k], real.fingers[k].finger),
+                         noise, normal);
+  }
   return result;
 }
 
@@ -284,11 +361,8 @@ NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noi
   result.truth = roll_rig(part, real);
   let_sense(result, {jaw(), disk(real.radius)}, noise, normal);
   // Only the wheel's x and y are noisy: `position` is of the pin.
-  FingerRows& pin = result.log.fingers[1];
-  for (std::size_t row = 0; row < pin.x.size(); ++row) {
-    pin.x[row] += normal.next(noise.position);
-    pin.y[row] += normal.next(noise.position);
-  }
+  add_noise_of_centres(result.log.fingers[1], rolled_between(result.truth.log.fingers[1], disk(real.radius)), noise,
+                       normal);
   return result;
 }
 
@@ -296,6 +370,8 @@ NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noi
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
                                  std::uint64_t seed, double seconds) {
   require_valid(noise);
+  require_kinds(noise, {&Noise::contact, &Noise::angle, &Noise::slip, &Noise::drift, &Noise::walk, &Noise::gyro},
+                "simulated increments");
   require_times(noise, seconds > 0, "the increments on " + part.name());
   if (rows == 0) throw InputError("expected at least 1 row of a log, found 0");
   if (!std::isfinite(start) || !std::isfinite(length)) {

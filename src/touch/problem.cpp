@@ -11,6 +11,7 @@
 
 #include "log/mirrored.hpp"
 #include "outline/turn.hpp"
+#include "roll/noise_kinds.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -120,16 +121,6 @@ void require_clear(const TouchProblem& problem) {
   }
 }
 
-/// Kinds of noise that only a roll has.
-void require_noise_of_touches(const Noise& noise) {
-  rollfix::require_valid(noise);
-  for (const NoiseKind& kind : kNoiseKinds) {
-    if (kind.sd == &Noise::position || kind.sd == &Noise::angle || noise.*kind.sd == 0) continue;
-    refuse(
-        fmt::format("`noise` of touches is position and angle, found {}={}; leave it out", kind.name, noise.*kind.sd));
-  }
-}
-
 /// Rolls tell the part's heading, which they share, by u and psi.
 void require_roll(const TouchProblem& problem, std::size_t number) {
   const Log& log = problem.rolls[number];
@@ -193,10 +184,9 @@ void require_valid(const TouchProblem& problem) {
     rollfix::require_valid(*problem.finger);
     require_no_corners({*problem.finger}, "several rolls and touches");
   }
-  // Of touches alone kinds of noise that only a roll has are refused.
   if (problem.noise) {
-    if (problem.rolls.empty()) require_noise_of_touches(*problem.noise);
-    if (!problem.rolls.empty()) rollfix::require_valid(*problem.noise);
+    rollfix::require_valid(*problem.noise);
+    if (problem.rolls.empty()) require_kinds(*problem.noise, {&Noise::position, &Noise::angle}, "touches");
   } else {
     require_tolerance(problem);
   }

@@ -196,8 +196,8 @@ std::vector<Interval> arcs_of(const std::vector<PosePiece>& pieces, const Bounda
 void measure_first(const Log& log, const Finger& finger, double radius, Measured& measured) {
   const FingerRows& rows = log.fingers.front();
   const Contact first = contacts_of(rows, finger).front();
-  // `facing` points into the part: the tangent is that + pi (the outward normal) + pi / 2.
-  measured.tangent = facing(finger, first) - 0.5 * std::numbers::pi;
+  // The normal points into the part: the tangent is that + pi (the outward normal) + pi / 2.
+  measured.tangent = normal_direction(finger, first) - 0.5 * std::numbers::pi;
   if (!has_centres(log)) return;
   measured.at = Vec2(rows.x.front(), rows.y.front());
   if (radius == 0) measured.at -= centre_of(finger, Vec2::Zero(), first);

@@ -94,8 +94,8 @@ FingerGeometry contacts_at(const Sample& first, const std::vector<Finger>& finge
   FingerGeometry contacts{first.finger_curvature, {}, fingers};
   // One finger, or a log without u and psi: no facing.
   if (first.reading.fingers() != 2 || !first.contact) return contacts;
-  contacts.facing = nearest_angle(facing(*finger_of(fingers, 0), (*first.contact)[0]) -
-                                  facing(*finger_of(fingers, 1), (*first.contact)[1]));
+  contacts.facing = nearest_angle(normal_direction(*finger_of(fingers, 0), (*first.contact)[0]) -
+                                  normal_direction(*finger_of(fingers, 1), (*first.contact)[1]));
   return contacts;
 }
 

@@ -42,7 +42,7 @@ TEST(CliTouchCertify, is_refused_where_the_answer_is_changed) {
   const Ran changed =
       cli::shell("sed -i 's/\"radius\": 3.0/\"radius\": 3.01/' proof.json && rollfix-verify proof.json");
   EXPECT_EQ(changed.code, 1);
-  EXPECT_THAT(changed.out, testing::StartsWith("refused: set 0, touch 0 is off by "));
+  EXPECT_THAT(changed.out, testing::StartsWith("refused: set 0, touch 0, off, in tolerances: stated "));
 }
 
 TEST(CliTouchCertify, says_what_certificates_are_not_of) {

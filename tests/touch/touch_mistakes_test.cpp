@@ -157,7 +157,7 @@ TEST(TouchRefusals, SayWhatIsWrongAndWhatToGive) {
             "touches: touch 1: expected a standard deviation above 0 of its place, found 0; give `noise` with "
             "position=SD");
   EXPECT_EQ(refused([](TouchProblem& problem) { problem.noise->slip = 0.01; }),
-            "touches: `noise` of touches is position and angle, found slip=0.01; leave it out");
+            "noise of touches is position and angle, found slip=0.01; leave it out");
   EXPECT_EQ(refused([](TouchProblem& problem) { problem.touches[1].at.x() = NAN; }).substr(0, 33),
             "touches: touch 2: expected a plac");
   EXPECT_EQ(refused([](TouchProblem& problem) { problem.touches[1].normal = 90; }),

@@ -199,13 +199,13 @@ std::vector<Finger> read_skins(const RollArguments& arguments, const Question& q
       if (!measured.touches.empty()) require_disks(fingers, "--touch");
       return fingers;
     }
-    default: {
-      const bool is_log = !measured.rolls.empty();
-      const bool of_two = is_log ? measured.rolls.front().fingers.size() == 2
-                                 : !measured.readings.empty() && measured.readings.front().fingers() == 2;
-      return read_fingers(arguments.fingers, of_two ? 2 : 1, unit);
-    }
+    case QuestionKind::roll:
+      break;
   }
+  const bool is_log = !measured.rolls.empty();
+  const bool of_two = is_log ? measured.rolls.front().fingers.size() == 2
+                             : !measured.readings.empty() && measured.readings.front().fingers() == 2;
+  return read_fingers(arguments.fingers, of_two ? 2 : 1, unit);
 }
 
 /// An angle of one roll; of touches LENGTH or LENGTH,ANGLE, of what else shares a pose an angle or both.

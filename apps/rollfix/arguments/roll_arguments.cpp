@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -102,18 +101,35 @@ double read_sd(std::string_view value, NoiseKind::Unit unit, const std::string& 
       return read_rate(value, what);
     case NoiseKind::Unit::walk:
       return read_walk(value, what);
-    default:
-      return read_number(value, what);
+    // Lengths have the outline's unit, which is read with them.
+    case NoiseKind::Unit::length:
+    case NoiseKind::Unit::share:
+      break;
   }
+  return read_number(value, what);
+}
+
+/// How one is typed.
+const char* form_of(NoiseKind::Unit unit) {
+  switch (unit) {
+    case NoiseKind::Unit::length:
+      return "LENGTH";
+    case NoiseKind::Unit::angle:
+      return "ANGLE";
+    case NoiseKind::Unit::share:
+      return "SHARE";
+    case NoiseKind::Unit::rate:
+      return "10deg/h";
+    case NoiseKind::Unit::walk:
+      return "0.3deg/sqrt(h)";
+  }
+  return "";
 }
 
 /// "contact=LENGTH,angle=ANGLE,...".
 std::string noise_form(const char* separator) {
   std::vector<std::string> fields;
-  for (const NoiseKind& kind : kNoiseKinds) {
-    constexpr std::array<const char*, 5> kForms = {"LENGTH", "ANGLE", "SHARE", "10deg/h", "0.3deg/sqrt(h)"};
-    fields.push_back(fmt::format("{}={}", kind.name, kForms[static_cast<std::size_t>(kind.unit)]));
-  }
+  for (const NoiseKind& kind : kNoiseKinds) fields.push_back(fmt::format("{}={}", kind.name, form_of(kind.unit)));
   return fmt::format("{}", fmt::join(fields, separator));
 }
 
@@ -250,13 +266,19 @@ std::optional<Noise> read_noise(const std::string& text, const std::string& unit
     const std::string name(field.substr(0, mark));
     const auto kind =
         std::find_if(kNoiseKinds.begin(), kNoiseKinds.end(), [&](const NoiseKind& one) { return name == one.name; });
-    if (kind == kNoiseKinds.end() || mark == std::string_view::npos) {
+    if (kind == kNoiseKinds.end()) {
       std::vector<std::string> names;
       for (const NoiseKind& one : kNoiseKinds) names.emplace_back(one.name);
       const bool may_be_decimals = !seen.empty() && parse_angle(field).has_value();  // "contact=0,1"
-      throw InputError(fmt::format("--noise {}: '{}' is not NAME=SD; {}{}", text, field,
-                                   may_be_decimals ? "numbers take a decimal point, as in 0.5, not a comma; " : "",
+      throw InputError(fmt::format("--noise {}: {}{}", text,
+                                   may_be_decimals ? fmt::format("'{}' is not NAME=SD; numbers take a decimal point, as "
+                                                                 "in 0.5, not a comma; ",
+                                                                 field)
+                                                   : fmt::format("there is no noise '{}'; ", name),
                                    known_names(name, names)));
+    }
+    if (mark == std::string_view::npos) {
+      throw InputError(fmt::format("--noise {0}: {1} has no value, expected {1}={2}", text, name, form_of(kind->unit)));
     }
     if (!seen.insert(name).second) throw InputError(fmt::format("--noise {}: {} is given twice", text, name));
     const std::string what = fmt::format("--noise {}", text);

@@ -64,9 +64,10 @@ const char* name_of(march::Found found) {
       return "case 2";
     case march::Found::bisection:
       return "bisection";
-    default:
-      return "boundary";
+    case march::Found::boundary:
+      break;
   }
+  return "boundary";
 }
 
 /// Likewise of a pair.
@@ -76,9 +77,10 @@ const char* name_of(march::PairFound found) {
       return "bisection";
     case march::PairFound::iteration:
       return "iteration";
-    default:
-      return "boundary";
+    case march::PairFound::boundary:
+      break;
   }
+  return "boundary";
 }
 
 /// Section 2.

@@ -83,9 +83,9 @@ Log in_mirror(Log log, const std::vector<Finger>& seen) {
 
 void require_writable_log(const std::string& file, bool force) {
   if (is_stdout(file)) return;
-  constexpr std::array<std::string_view, 6> kOthers = {".json", ".svg", ".png", ".pdf", ".dxf", ".db"};
+  constexpr std::array<std::string_view, 6> kOfTables = {"", ".csv", ".txt", ".tsv", ".dat", ".log"};
   const std::string ending = ending_of(file);
-  if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end()) {
+  if (std::find(kOfTables.begin(), kOfTables.end(), ending) == kOfTables.end()) {
     throw InputError(fmt::format("-o {0}: a log is a table, expected a name as in {1}.csv, found the ending {2}", file,
                                  file.substr(0, file.size() - ending.size()), ending));
   }

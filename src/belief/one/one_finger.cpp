@@ -222,7 +222,7 @@ namespace {
 struct FirstCentre {
   FeltCentre felt;
   bool has_place = false;
-  double facing = 0;
+  double normal = 0;
 };
 
 /// What decides how a finger's samples are weighed; from the first one on.
@@ -251,7 +251,7 @@ struct OneFingersGrid {
             path.get(),
             first->has_place,
             first->felt,
-            first->facing,
+            first->normal,
             errors.centre_variance(),
             errors.radius_share(finger_curvature)};
   }
@@ -355,7 +355,8 @@ class OneFingersPosterior : public Posterior {
   void begin(const Sample& first, double time) {
     std::optional<FirstCentre> centre;
     if (const auto felt = felt_centre(first)) {
-      centre = FirstCentre{*felt, first.centre.has_value(), facing(contacts_.fingers.front(), (*first.contact)[0])};
+      centre = FirstCentre{*felt, first.centre.has_value(),
+                           normal_direction(contacts_.fingers.front(), (*first.contact)[0])};
     }
     state_.emplace(part_, kind_, options_, first.finger_curvature[0], centre);
     first_time_ = time;

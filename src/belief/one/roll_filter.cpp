@@ -13,8 +13,8 @@
 //   x, P            errors that the roll shares (offset of length, offset of turn, scale of lengths, a gyroscope's
 //                   scale and bias, the first centre's x and y) and their covariance: `x_`, `p_`; dx/dw is `dx_`
 //   e, H            a row's equations and their derivative by x: `Equations::miss`, `by_errors`
-//   R, K            variance of the row on its own: `own`; what has gathered on the way: `walk_`, by x
-//   cost, volume    e^T S^-1 e and det S / det S_w of all rows, S = S_w + H P0 H^T, S_w = R + K: -2 log likelihood is
+//   R, G            variance of the row on its own: `own`; what has gathered on the way: `walk_`, by x
+//   cost, volume    e^T S^-1 e and det S / det S_w of all rows, S = S_w + H P0 H^T, S_w = R + G: -2 log likelihood is
 //                   their sum, with the logarithm of the second
 // Follows docs/belief.md, as named above; the centre's two equations are its "Centres as evidence".
 // Idea: for one w the rows measure x, so that an extended Kalman filter of x gives their likelihood and its slope by w.
@@ -68,8 +68,8 @@ RollFilter RollFilter::again(const SharedCovariance& start, std::pmr::memory_res
 /// the estimate so far. In a later pass it is the estimate of the pass before, by all rows, widened by what gathers
 /// from here to the end of the roll. Where the rows so far leave the row's length less open than that, the errors of
 /// length come from them.
-RollFilter::About RollFilter::about(double length) const {
-  About about{x_, p_};
+RollFilter::LinearisedAt RollFilter::linearised_at(double length) const {
+  LinearisedAt about{x_, p_};
   if (!found_) return about;
   // What the pass before found. The first centre's errors (5, 6) stay as this pass has them, with no covariance with
   // the others.
@@ -110,7 +110,7 @@ struct RollFilter::Equations {
 /// lead from the first contact to the row's: e = s(w + theta + c L) - s(w) - L = 0. With m = ds/dw the derivatives are
 /// de/dtheta = m and de/dL = c m - 1. On a straight line m = 1 / c: there e does not depend on L. At a corner m = 0:
 /// there e does not depend on theta.
-RollFilter::Equations RollFilter::equations_at(double w, const About& about, double w_variance,
+RollFilter::Equations RollFilter::equations_at(double w, const LinearisedAt& about, double w_variance,
                                                const Node& node) const {
   const Corrected roll = corrected(node, about.errors);
   const SpreadPlace end = arc_->about(w, w_variance, node.spread);
@@ -134,8 +134,8 @@ RollFilter::Equations RollFilter::equations_at(double w, const About& about, dou
 
 /// The two equations of the finger's centre: docs/belief.md, "Centres as evidence". In the part's frame the centre is
 /// at q(s) = p(s) - R(Theta + pi/2) arm. In the world it moves from where it was at the first contact by R(heading)
-/// (q(s) - q(s0)). The first contact's normal tells the heading: facing - pi/2 - Theta(s0).
-void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about, const Node& node,
+/// (q(s) - q(s0)). The first contact's normal tells the heading: N + psi - pi/2 - Theta(s0).
+void RollFilter::add_centre(const SpreadPlace& end, double w, const LinearisedAt& about, const Node& node,
                             Equations& rows) const {
   constexpr double kQuarter = std::numbers::pi / 2;
   const Shared& errors = about.errors;
@@ -148,7 +148,7 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about
   const double turn_by_w = 1 - tilt_ * end.slope;
   const double turn_by_w_first = 1 - tilt_ * place_.slope;
   // The offset of turn is the error of the first normal, sign reversed (ErrorModel): it corrects the heading.
-  const double heading = centres_->facing + errors[1] - kQuarter - angle_first;
+  const double heading = centres_->normal + errors[1] - kQuarter - angle_first;
   const Eigen::Matrix2d to_world = rotation(heading);
   const Eigen::Matrix2d of_arm = rotation(heading + angle + kQuarter);
   const Eigen::Matrix2d of_first_arm = rotation(heading + angle_first + kQuarter);
@@ -224,7 +224,7 @@ RowShare share_of(int equations, double squared, double noise, double all, const
 
 /// The correction by one node, with its three equations: cost, volume, x, P, and their derivatives by w.
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
-  const About about = this->about(node.length);
+  const LinearisedAt about = linearised_at(node.length);
   const Corrected roll = corrected(node, about.errors);
   // Where the contact would be by the measured roll alone, with the variance of that.
   const double measured = w_ + roll.turn + tilt_ * roll.length;
@@ -285,7 +285,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   x_ += gain * innovation;
   dx_ += gain * by_w;
   p_ -= gain * of_errors.transpose();
-  // The same filter with K in place of P, which gives det S_w.
+  // The same filter with G in place of P, which gives det S_w.
   walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
 }
 
@@ -308,18 +308,18 @@ RollFilter RollFilter::moved(const TiltedArc& arc, const Shift& shift) const {
 /// what all rows say of its errors. The covariance is J P J^T; `by_w` is the derivative of (x, y, heading).
 PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   const double angle = w_ - tilt_ * place_.s;
-  const double facing = centres_->facing + x_[1];
+  const double normal = centres_->normal + x_[1];
   PoseSpread spread;
-  spread.mean.heading = facing - std::numbers::pi / 2 - angle;
+  spread.mean.heading = normal - std::numbers::pi / 2 - angle;
   const Arm& first = centres_->first.arm;
   // From the centre to the contact, in the world, corrected for a wrong radius and a place felt elsewhere.
-  const Vec2 arm = rotation(facing) * (1 / (1 + centres_->radius_share * x_[2]) * first.at - x_[0] * first.per_length);
+  const Vec2 arm = rotation(normal) * (1 / (1 + centres_->radius_share * x_[2]) * first.at - x_[0] * first.per_length);
   const Vec2 on_part = spread.mean.turned(centres_->part->point(place_.s));
   const Vec2 origin = centres_->first.centre + Vec2(x_[5], x_[6]) + arm - on_part;
   spread.mean.x = origin.x();
   spread.mean.y = origin.y();
   Eigen::Matrix<double, 3, kShared> by_errors = Eigen::Matrix<double, 3, kShared>::Zero();
-  by_errors.topRows<2>().col(0) = -(rotation(facing) * first.per_length);
+  by_errors.topRows<2>().col(0) = -(rotation(normal) * first.per_length);
   by_errors.topRows<2>().col(1) = turned_left(arm - on_part);
   by_errors.topRows<2>().col(2) = -centres_->radius_share * arm;
   by_errors.topRightCorner<2, 2>().setIdentity();
@@ -328,7 +328,7 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   if (by_w != nullptr) {
     // Along the boundary the point p(s) moves by m along the tangent, and the heading turns back by dTheta.
     const double turn_by_w = 1 - tilt_ * place_.slope;
-    const Vec2 tangent = -rotation(facing).col(1) * place_.slope;
+    const Vec2 tangent = -rotation(normal).col(1) * place_.slope;
     *by_w = by_errors * dx_;
     by_w->head<2>() += turn_by_w * turned_left(on_part) - tangent;
     (*by_w)[2] -= turn_by_w;
@@ -346,7 +346,7 @@ Eigen::Matrix<double, 2, kRolling> RollFilter::by_rolling(const Corrected& roll,
 }
 
 /// (c, 1) C (c, 1)^T with C the covariance of (L, theta); rounding below 0 counts as 0. Radians^2.
-double RollFilter::variance_of_roll(const Corrected& roll, const About& about, const RowCovariance& own) const {
+double RollFilter::variance_of_roll(const Corrected& roll, const LinearisedAt& about, const RowCovariance& own) const {
   const Eigen::Matrix<double, kRolling, 1> h = by_rolling(roll, about.errors).transpose() * Eigen::Vector2d(tilt_, 1);
   const double variance = h.dot(about.open.topLeftCorner<kRolling, kRolling>() * h) + tilt_ * tilt_ * own.length +
                           2 * tilt_ * own.both + own.turn;

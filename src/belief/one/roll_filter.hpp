@@ -109,15 +109,15 @@ class RollFilter {
     Gathered gathered;
   };
   /// What a row is linearised about, and over.
-  struct About {
+  struct LinearisedAt {
     Shared errors;
     SharedCovariance open;
   };
   struct Equations;
-  Equations equations_at(double w, const About& about, double w_variance, const Node& node) const;
-  void add_centre(const SpreadPlace& end, double w, const About& about, const Node& node, Equations& rows) const;
+  Equations equations_at(double w, const LinearisedAt& about, double w_variance, const Node& node) const;
+  void add_centre(const SpreadPlace& end, double w, const LinearisedAt& about, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
-  About about(double length) const;
+  LinearisedAt linearised_at(double length) const;
   static Corrected corrected(const Node& node, const Shared& errors) {
     return corrected(node.length, node.turn, node.sensed, node.seconds, errors);
   }
@@ -132,7 +132,7 @@ class RollFilter {
   /// What length and turn are, by the errors that the roll shares.
   static Eigen::Matrix<double, 2, kRolling> by_rolling(const Corrected& roll, const Shared& errors);
   /// The variance of theta + c L, from the shared errors and a row's own.
-  double variance_of_roll(const Corrected& roll, const About& about, const RowCovariance& own) const;
+  double variance_of_roll(const Corrected& roll, const LinearisedAt& about, const RowCovariance& own) const;
 
   const TiltedArc* arc_;  // that the first contact is on
   const CentreModel* centres_;

@@ -12,7 +12,7 @@
 //   x, dx/dw, P     `x_`, `dx_`, `p_`, the first `Errors` of the shared errors
 //   e               `Lines::miss`, the one equation of a row without centre: s(w + theta + c L) - s(w) - L
 //   de/dx           (1 - c m) g - m h, see `take_nodes`: g in `Rolled::by_lengths`, h in `Rolled::by_turns`
-//   R, K            `Lines::own`; `walk00_`, `walk01_`, `walk11_` of length and turn
+//   R, G            `Lines::own`; `walk00_`, `walk01_`, `walk11_` of length and turn
 //   S, S_w          their sums for one row: `Lines::all`, `Lines::noise`
 // Follows docs/belief.md, "The computation".
 // Idea: one filter is a long chain of operations, each of which waits for the one before. Four of them side by side
@@ -85,8 +85,8 @@ class SideBySide {
   struct Walked {
     Four length = Four::Zero(), turn = length;
   };
-  /// What the rows are linearised about, and over; see RollFilter::about.
-  struct About {
+  /// What the rows are linearised about, and over; see RollFilter::linearised_at.
+  struct LinearisedAt {
     PerError errors;
     Covariance open;
   };
@@ -190,10 +190,10 @@ class SideBySide {
     filter.walk_(1, 0) = filter.walk_(0, 1);
   }
 
-  /// The lanes' next nodes, after what gathers up to their mean was added to P and K.
+  /// The lanes' next nodes, after what gathers up to their mean was added to P and G.
   Rows next_rows();
-  /// RollFilter::about for all lanes at once: branches become factors 0 and 1.
-  About about(const Rows& rows) const;
+  /// RollFilter::linearised_at for all lanes at once: branches become factors 0 and 1.
+  LinearisedAt linearised_at(const Rows& rows) const;
   /// Offset and scale of lengths; else of turns.
   static constexpr bool is_of_length(std::size_t error) { return error == 0 || error == 2; }
   /// L and theta of the rows, less these errors.
@@ -201,8 +201,8 @@ class SideBySide {
   /// Covariance of L and theta from this covariance of the shared errors.
   static Uncertain uncertain(const Rolled& rolled, const Covariance& p);
   /// By what the pass before left open; in a first pass by what the rows so far do.
-  Uncertain open_of(const Rolled& rolled, const About& about, const Uncertain& so_far) const;
-  /// Adds variances to the offsets in P, and to K.
+  Uncertain open_of(const Rolled& rolled, const LinearisedAt& about, const Uncertain& so_far) const;
+  /// Adds variances to the offsets in P, and to G.
   void gather(const Four& length, const Four& turn);
   /// s(w) as a line about w in one lane. A lane without errand gets none.
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
@@ -210,7 +210,7 @@ class SideBySide {
   void take_nodes();
   /// Adds each lane's row to cost and volume. Returns 1 / S of the row, times its weight where outliers are possible.
   Four trust(const Lines& lines);
-  /// Kalman's correction of x, P, K and of what is summed for the likelihood.
+  /// Kalman's correction of x, P, G and of what is summed for the likelihood.
   void correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain);
 
   const NextErrand& next_;
@@ -223,10 +223,10 @@ class SideBySide {
   PerError x_ = all(0), dx_ = x_, most_ = all(1);  // most_: bounds on |x| of scales and bias
   Covariance p_ = Covariance::none();
   Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
-  Walked later_;                             // what gathers after the rows' mean
-  Walked on_the_way_;                        // so far
-  Walked whole_way_;                         // in the pass before
-  About found_{all(0), Covariance::none()};  // by the pass before
+  Walked later_;                                    // what gathers after the rows' mean
+  Walked on_the_way_;                               // so far
+  Walked whole_way_;                                // in the pass before
+  LinearisedAt found_{all(0), Covariance::none()};  // by the pass before
   Four cost_ = walk00_, log_volume_ = walk00_, volume_ = Four::Ones(), log_gathered_ = walk00_,
        gathered_ = Four::Ones(), slope_ = walk00_, information_ = walk00_;
   Four w_ = walk00_, first_s_ = walk00_, first_slope_ = walk00_, is_first_ = Four::Ones();
@@ -282,8 +282,8 @@ void SideBySide<Errors>::look(std::size_t lane, double w, double variance, doubl
 }
 
 template <int Errors>
-typename SideBySide<Errors>::About SideBySide<Errors>::about(const Rows& rows) const {
-  About about = found_;
+typename SideBySide<Errors>::LinearisedAt SideBySide<Errors>::linearised_at(const Rows& rows) const {
+  LinearisedAt about = found_;
   Covariance& open = about.open;
   // From this row to the end of the roll the offsets walk on: what was found at the end is that uncertain here.
   open(0, 0) += (whole_way_.length - on_the_way_.length).max(0.0);
@@ -330,7 +330,7 @@ typename SideBySide<Errors>::Uncertain SideBySide<Errors>::uncertain(const Rolle
 }
 
 template <int Errors>
-typename SideBySide<Errors>::Uncertain SideBySide<Errors>::open_of(const Rolled& rolled, const About& about,
+typename SideBySide<Errors>::Uncertain SideBySide<Errors>::open_of(const Rolled& rolled, const LinearisedAt& about,
                                                                    const Uncertain& so_far) const {
   // Lanes in their first pass: what the rows so far leave.
   Uncertain open = uncertain(rolled, about.open);
@@ -347,7 +347,7 @@ template <int Errors>
 void SideBySide<Errors>::take_nodes() {
   const Rows rows = next_rows();
   const bool is_first = (is_first_ > 0).all();
-  const About about = is_first ? About{x_, p_} : this->about(rows);
+  const LinearisedAt about = is_first ? LinearisedAt{x_, p_} : linearised_at(rows);
   const Rolled roll = rolled(rows, about.errors);
   const Four& length = roll.length;
   // w at the contact by the measured roll: w + theta + c L.
@@ -377,7 +377,7 @@ void SideBySide<Errors>::take_nodes() {
     const Four alone = lines.own - by_offset * by_offset * rows.averaged_length - m * m * rows.averaged_turn;
     lines.of_length = by_offset * walk00_ - m * walk01_;
     lines.of_turn = by_offset * walk01_ - m * walk11_;
-    // S_w of this row: its own errors and K.
+    // S_w of this row: its own errors and G.
     lines.noise = alone + by_offset * lines.of_length - m * lines.of_turn;
     // S of this row: with P of all shared errors.
     lines.all = alone + lines.rest * (lines.rest * so_far.length - 2 * m * so_far.both) + m * m * so_far.turn;
@@ -476,7 +476,7 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   for (std::size_t k = 0; k < Errors; ++k) {
     for (std::size_t j = k; j < Errors; ++j) p_(k, j) -= trusted * of_errors[k] * of_errors[j];
   }
-  // The gain of the filter with K alone divides by S_w. `trusted * all` is the row's weight: below 1 if it may be an
+  // The gain of the filter with G alone divides by S_w. `trusted * all` is the row's weight: below 1 if it may be an
   // outlier.
   const Four seen = trusted * lines.all / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;

@@ -14,7 +14,7 @@
 //   x               errors that the roll shares (n_a0, n_b0, eps_a, eps_b, first turn): `score_.errors`, P:
 //                   `covariance`
 //   f, H, df/dw     a row's equations: `PairEquations::f`, `by_errors`, `by_start`
-//   R, K            `variance` of the row on its own; `walk_`, of x, what has gathered
+//   R, G            `variance` of the row on its own; `walk_`, of x, what has gathered
 //   Y               what a felt normal tells of Theta near a corner, with its mean and variance: FeltTurning
 // Follows docs/two_fingers.md, "The errors", and eqs. (7) to (9) of the paper (Jia, IROS 2001), with the facing where
 // it is known. -2 log L = f^T S^-1 f + log(det S / det S_w) as for one finger: docs/belief.md.
@@ -153,7 +153,7 @@ class PairPass {
       }
     }
     if (!model_.errors->drifts()) return;
-    // The filter with K alone, for det S_w; without drift K is 0.
+    // The filter with G alone, for det S_w; without drift G is 0.
     walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
     gathered_.add(noise.determinant() / own.determinant());
   }
@@ -190,8 +190,8 @@ PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<
 Eigen::Vector3d off_prior(const PairModel& model, const StartPlaces& at) {
   const PosePrior& prior = *model.pose;
   // The heading by each finger's normal, and the mean of both.
-  const double by_a = model.first[0].facing - kHalfTurn / 2 - at.angle[0];
-  const double by_b = model.first[1].facing - kHalfTurn / 2 - at.angle[1];
+  const double by_a = model.first[0].normal - kHalfTurn / 2 - at.angle[0];
+  const double by_b = model.first[1].normal - kHalfTurn / 2 - at.angle[1];
   Pose pose;
   pose.heading = by_a + 0.5 * nearest_to_zero(by_b - by_a);
   // The first contacts' own errors add to the prior's.

@@ -8,6 +8,7 @@
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
 #include "belief/two/pair_rows.hpp"
+#include "roll/noise_kinds.hpp"
 #include "rollfix/error.hpp"
 
 // Notation:
@@ -65,9 +66,10 @@ class TwoFingersPosterior : public Posterior {
         rows_(options.robust) {
     // Only stated noise of the centres makes them evidence.
     if (options.noise.position > 0) path_.emplace(part_);
-    if (options.noise.drift == 0 && options.noise.walk == 0 && options.noise.gyro == 0) return;
-    throw InputError(
-        "noise: drift, walk and gyro are a gyroscope's beside one finger, found two fingers: leave them out");
+    // The others are a gyroscope's, beside one finger.
+    require_kinds(options.noise,
+                  {&Noise::contact, &Noise::angle, &Noise::slip, &Noise::radius, &Noise::position, &Noise::correlation},
+                  "two fingers");
   }
 
   void add(const Sample& sample) override {
@@ -243,7 +245,7 @@ class TwoFingersPosterior : public Posterior {
       const Finger& finger = *finger_of(contacts_.fingers, which);
       const Contact& contact = (*sample.contact)[which];
       const Vec2 centre = sample.centre ? (*sample.centre)[which] : Vec2(0, 0);
-      first_[which] = {centre - centre_of(finger, Vec2::Zero(), contact), facing(finger, contact),
+      first_[which] = {centre - centre_of(finger, Vec2::Zero(), contact), normal_direction(finger, contact),
                        finger.curvature(contact.u)};
     }
     has_first_ = true;
@@ -258,7 +260,7 @@ class TwoFingersPosterior : public Posterior {
       const Finger& finger = *finger_of(contacts_.fingers, which);
       const Contact& contact = (*sample.contact)[which];
       felt[which] = {(*sample.centre)[which], arm_of(finger, contact.u)};
-      normals[which] = facing(finger, contact);
+      normals[which] = normal_direction(finger, contact);
     }
     return PairCentres::of(felt, normals);
   }

@@ -20,11 +20,12 @@
 //   f_k(s, t)       A_k(s) - B_k(t), in the facing's row less whole turns (`lap`): `residual`
 //   p, q            two rows that a box is decided by; J = ((A_p', -B_p'), (A_q', -B_q')) is their Jacobian
 //   Y               inverse of J with the middles of all slopes: `Regular::inverse`
-//   |1 - Y J|       bounded entry by entry in `Regular::off`; `radius` is its spectral radius, `slack` (1 - off)^-1
+//   |1 - Y J|       bounded entry by entry in `Regular::off`; `spectral_radius` is its spectral radius, `slack` (1 -
+//   off)^-1
 // Follows eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Two fingers", steps 2 and 3. Uniqueness is
 // Hadamard's global inverse theorem, for f continued beyond the box by its tangents.
-// Idea: a box goes when the two sides can't meet. Where `radius` is below 1 it has one root at the most, and Newton's
-// method says whether. What is neither is followed as a line (line_search.cpp) or halved.
+// Idea: a box goes when the two sides can't meet. Where `spectral_radius` is below 1 it has one root at the most, and
+// Newton's method says whether. What is neither is followed as a line (line_search.cpp) or halved.
 namespace rollfix::locating {
 namespace {
 
@@ -333,8 +334,9 @@ std::optional<PairBoxSearch::Regular> PairBoxSearch::regular(const PairBoxSides&
       if (!(std::max(found.off(0, 0), found.off(1, 1)) <= kMostContraction)) continue;  // no more than the radius
       found.off(0, 1) = combination(sides.b, first, p, q).slope_radius();
       found.off(1, 0) = combination(sides.a, second, p, q).slope_radius();
-      found.radius = spectral_radius(found.off);
-      if (!(found.radius <= kMostContraction) || (best && found.radius >= best->radius)) continue;
+      found.spectral_radius = spectral_radius(found.off);
+      if (!(found.spectral_radius <= kMostContraction) || (best && found.spectral_radius >= best->spectral_radius))
+        continue;
       found.slack = (Eigen::Matrix2d::Identity() - found.off).inverse();
       best = found;
     }

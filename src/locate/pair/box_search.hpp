@@ -42,7 +42,7 @@ class PairBoxSearch {
     Eigen::Matrix2d inverse;  // of the middle Jacobian
     Eigen::Matrix2d off;      // bounds on 1 - inverse * J, entry by entry
     Eigen::Matrix2d slack;    // (1 - off)^-1
-    double radius;            // the spectral radius of `off`: what the simplified Newton step contracts by
+    double spectral_radius;   // of `off`: what the simplified Newton step contracts by
   };
 
   /// Excludes a box by the bounds of its two nodes, or decides it on its pieces, or halves it.

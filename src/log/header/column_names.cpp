@@ -74,12 +74,19 @@ bool takes(Column column, Dimension dimension) {
     // Of a disk an angle, of any other finger a length.
     case Column::u:
       return dimension != Dimension::time;
-    // 0 or 1.
-    case Column::contact:
-      return false;
-    default:
-      return dimension == (is_angle(column) ? Dimension::angle : Dimension::length);
+    case Column::x:
+    case Column::y:
+    case Column::length:
+    case Column::distance:
+      return dimension == Dimension::length;
+    case Column::psi:
+    case Column::turn:
+    case Column::dturn:
+      return dimension == Dimension::angle;
+    case Column::contact:  // 0 or 1
+      break;
   }
+  return false;
 }
 
 std::string what_it_takes(Column column) {
