@@ -112,16 +112,32 @@ Drawn drawn(const Part& part, const Noise& noise, Generator& generator) {
   return {problem, {roll.truth.s[0][first], roll.truth.s[1][first]}};
 }
 
+/// A log as a file has it that is written with so many decimals.
+void round_to(int decimals, Log& log) {
+  const double unit = std::pow(10, -decimals);
+  for (rollfix::FingerRows& rows : log.fingers) {
+    for (std::vector<double>* column : {&rows.u, &rows.psi, &rows.x, &rows.y}) {
+      for (double& value : *column) value = unit * std::round(value / unit);
+    }
+    rows.place_rounding = rows.angle_rounding = 0.5 * unit;
+  }
+}
+
 /// An exact roll, written with so many decimals.
 Drawn written(const Part& part, int decimals, Generator& generator) {
   Drawn exact = drawn(part, Noise{}, generator);
-  const double unit = std::pow(10, -decimals);
-  for (rollfix::FingerRows& rows : exact.problem.measured.log->fingers) {
-    for (double& u : rows.u) u = unit * std::round(u / unit);
-    for (double& psi : rows.psi) psi = unit * std::round(psi / unit);
-    rows.place_rounding = rows.angle_rounding = 0.5 * unit;
-  }
+  round_to(decimals, *exact.problem.measured.log);
   return exact;
+}
+
+/// One finger rolls from a random place, at least over a side, so that it pivots on the way; with its centres.
+Drawn over_corners(const Part& part, const Noise& noise, Generator& generator) {
+  const rollfix::Finger finger = rollfix::disk(uniform(0.02, 0.06, generator) * part.perimeter());
+  rollfix::RollPlan plan;
+  plan.start = uniform(0, part.perimeter(), generator);
+  plan.distance = uniform(0.4, 0.6, generator) * part.perimeter() * (generator() % 2 == 0 ? 1 : -1);
+  plan.rows = 30 + generator() % 100;
+  return {{part, rollfix::noisy_roll(part, finger, plan, noise, generator()).log, {finger}}, plan.start};
 }
 
 Noise noise_on(const Part& part) { return {.contact = 5e-4 * part.perimeter(), .angle = 0.003}; }
@@ -193,6 +209,27 @@ TEST(SharpCorners, digits_of_two_exact_logs_contradict_nothing) {
   for (int k = 0; k < test_count(20); ++k) {
     Generator generator = test_generator(static_cast<std::uint64_t>(k) + 1);
     EXPECT_TRUE(is_honest(written(cornered(k % 2 == 0, generator), 9, generator), kByDigits)) << "case " << k;
+  }
+}
+
+TEST(SharpCorners, that_a_finger_with_centres_passes_are_not_contradicted_by_digits) {
+  for (int k = 0; k < test_count(40); ++k) {
+    Generator generator = test_generator(static_cast<std::uint64_t>(k) + 4001);
+    Drawn rounded = over_corners(cornered(k % 2 == 0, generator), Noise{}, generator);
+    const int decimals = 2 + k % 7;
+    round_to(decimals, *rounded.problem.measured.log);
+    EXPECT_TRUE(is_honest(rounded, 10 * std::pow(10, -decimals))) << "case " << k << ", decimals " << decimals;
+  }
+}
+
+TEST(SharpCorners, do_not_hide_that_rows_are_noisier_than_their_digits) {
+  for (int k = 0; k < test_count(20); ++k) {
+    Generator generator = test_generator(static_cast<std::uint64_t>(k) + 5001);
+    const Part part = cornered(k % 2 == 0, generator);
+    Drawn unsaid = over_corners(part, noise_on(part), generator);
+    for (rollfix::FingerRows& rows : unsaid.problem.measured.log->fingers) rows.x = rows.y = {};
+    unsaid.problem.diagnose = false;
+    EXPECT_TRUE(rollfix::solve(unsaid.problem).verdict.fits_badly) << "case " << k;
   }
 }
 

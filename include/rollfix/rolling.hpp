@@ -147,9 +147,9 @@ struct NoisyIncrements {
 };
 
 /// From s = start over this length along the stored outline, in so many equal steps of the true length. Each distance
-/// is off by N(0, contact), each dturn by N(0, angle); slip and a gyroscope as above, and no other noise is taken. `seconds`: that it takes, at an even speed; 0:
-/// the log has no times. Throws InputError likewise, and: no row, a length that is not finite, a way off the ends of an
-/// open part.
+/// is off by N(0, contact), each dturn by N(0, angle); slip and a gyroscope as above, and no other noise is taken.
+/// `seconds`: that it takes, at an even speed; 0: the log has no times. Throws InputError likewise, and: no row, a
+/// length that is not finite, a way off the ends of an open part.
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
                                  std::uint64_t seed, double seconds = 0);
 
@@ -182,10 +182,11 @@ struct Poses {
 ///    a to contact b with the part's, which is also how far apart the fingers would have the part; `turn_residual` is
 ///    the facing equation's.
 /// Nothing where the log does not have each finger's orientation and its centre x, y, or no finger is known. `noise`:
-/// by which a contact may be on a corner of its finger, where the heading is between bounds.
+/// by which a contact may be on a corner of its finger, where the heading is between bounds. On one of the part it may
+/// be by the digits of the log, and by `start_error`, length, by which the starts may be off.
 std::optional<Poses> poses(const Part& part, const std::vector<Finger>& fingers, const Log& log,
                            const PerFinger<double>& start, const std::vector<std::size_t>& rows,
-                           const Noise& noise = {});
+                           const Noise& noise = {}, double start_error = 0);
 
 /// A rig of two fingers: a flat jaw (finger a) and a wheel (finger b), a disk that turns freely on a pin. The robot
 /// moves the jaw and the pin; the part, which is free, and the wheel turn as the rolling requires: docs/rolling.md.

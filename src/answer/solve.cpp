@@ -140,8 +140,9 @@ void add_poses(const Problem& problem, Answer& answer) {
   std::vector<std::size_t> rows(problem.measured.log->rows());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   for (Placement& placement : answer.placements) {
-    std::optional<Poses> poses = rollfix::poses(problem.part, problem.fingers, *problem.measured.log, placement.start,
-                                                rows, problem.noise.value_or(Noise{}));
+    std::optional<Poses> poses =
+        rollfix::poses(problem.part, problem.fingers, *problem.measured.log, placement.start, rows,
+                       problem.noise.value_or(Noise{}), problem.noise ? 0 : width_of(placement));
     // A log without u and psi says nothing of the part in the world.
     if (!poses) continue;
     const auto largest = [](const std::vector<double>& values) {

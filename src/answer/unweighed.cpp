@@ -41,12 +41,6 @@ double widest(const Placement& placement) {
   return most;
 }
 
-/// How far the true place may be from the listed one. 0 of a continuum and of a corner: the listed place of a continuum
-/// stands for others, and a corner is exact.
-double width_of(const Placement& placement) {
-  return placement.kind == Kind::stretch || placement.kind == Kind::corner ? 0 : widest(placement);
-}
-
 /// Holds all rows of a log against placements. A row is off by |f|, corners taken as sets.
 class RowsCheck {
  public:
@@ -62,7 +56,7 @@ class RowsCheck {
   bool contradicts(const Placement& placement) const {
     // No reading is exact: placements are as wide as the fingers' corners leave them.
     if (is_open_) return false;
-    if (placement.kind != Kind::corner && is_off(placement)) return true;
+    if (is_off(placement)) return true;
     const double tolerance = kOverTolerance * answer_.tolerance.value;
     const double width = width_of(placement);
     const double bend = bend_over(width);
@@ -78,7 +72,8 @@ class RowsCheck {
   /// much.
   std::vector<std::size_t> rows_to_ask() const {
     for (const Placement& placement : answer_.placements) {
-      if (!is_open_ && is_of_many(placement) && is_off(placement)) return furthest(placement);
+      if (is_open_ || !is_of_many(placement)) continue;
+      if (off(placement, observed_.rolls) > kOverTolerance * answer_.tolerance.value) return furthest(placement);
     }
     return {};
   }
@@ -92,8 +87,7 @@ class RowsCheck {
   double bend_over(double width) const { return 2 * part_.turning().most_curvature() * width; }
   /// A continuum, of pairs also but for digits: the place that is listed need not be where the fingers were.
   bool is_of_many(const Placement& placement) const {
-    return placement.kind == Kind::stretch ||
-           (placement.start.size() == 2 && widest(placement) > kContinuum * part_.perimeter());
+    return placement.kind == Kind::stretch || widest(placement) > kContinuum * part_.perimeter();
   }
 
   /// Where contacts are known no better.
@@ -194,6 +188,10 @@ std::vector<Diagnosis> diagnoses_of(const Problem& problem, const Observation& o
 }
 
 }  // namespace
+
+double width_of(const Placement& placement) {
+  return placement.kind == Kind::stretch || placement.kind == Kind::corner ? 0 : widest(placement);
+}
 
 std::vector<std::size_t> rows_to_ask(const Problem& problem, const Observation& observed, const Answer& answer) {
   return RowsCheck(problem, observed, answer).rows_to_ask();

@@ -24,17 +24,22 @@ namespace {
 
 // A contact so near to a corner, in perimeters, may be on it: a placement is known to 1e-9.
 constexpr double kOnCorner = 1e-8;
+// Nor may what digits leave open of a length take it off: so often, as where rows are held against places.
+constexpr double kOverDigits = 10;
 
 /// What one finger says of the part at each row, when its first contact is at a given place of the boundary.
 class FeltPart {
  public:
   /// All have to stay. The rows have u, psi, x and y.
-  FeltPart(const Part& part, const Finger& finger, const FingerRows& rows, double start, const Noise& noise)
+  FeltPart(const Part& part, const Finger& finger, const FingerRows& rows, double start, const Noise& noise,
+           double start_error)
       : part_(part),
         finger_(finger),
         rows_(rows),
         start_(start),
         within_(reach_of_corners(rows.place_rounding, noise)),
+        on_corner_(kOnCorner * part.perimeter() + start_error +
+                   kOverDigits * finger.length_per_u() * rows.place_rounding),
         u_(unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped)),
         psi_(unwrapped_as_said(rows.psi, rows.angle_rounding, 2 * std::numbers::pi, rows.psi_wrapped)) {}
 
@@ -61,6 +66,8 @@ class FeltPart {
   double start_;
   /// length: a contact on the finger this near to one of its corners may be on it
   double within_;
+  /// length: a contact on the part this near to one of its corners may be on it
+  double on_corner_;
   /// unwrapped, as is psi_
   std::vector<double> u_;
   std::vector<double> psi_;
@@ -73,7 +80,7 @@ Interval FeltPart::tangents(double s) const {
   for (const Corner& corner : part_.corners()) {
     // Signed distance to the corner, to the nearest lap.
     const double ahead = part_.closed() ? std::remainder(s - corner.s, P) : s - corner.s;
-    if (std::abs(ahead) > kOnCorner * P) continue;
+    if (std::abs(ahead) > on_corner_) continue;
     const double laps = part_.closed() ? std::round((s - corner.s) / P) : 0;
     const double lap_turn = laps * turning.period_turn();
     // Theta before and after the jump; at a concave corner the smaller one is the one after.
@@ -191,16 +198,17 @@ Poses moving_poses(const FeltPart& a, const FeltPart& b, const std::vector<std::
 }  // namespace
 
 std::optional<Poses> poses(const Part& part, const std::vector<Finger>& fingers, const Log& log,
-                           const PerFinger<double>& start, const std::vector<std::size_t>& rows, const Noise& noise) {
+                           const PerFinger<double>& start, const std::vector<std::size_t>& rows, const Noise& noise,
+                           double start_error) {
   // Of travelled lengths, or without a finger's centre, nothing is known of the world.
   const bool tells =
       !fingers.empty() && log.kind == LogKind::contact &&
       std::none_of(log.fingers.begin(), log.fingers.end(), [](const FingerRows& finger) { return finger.x.empty(); });
   if (!tells) return std::nullopt;
   require_fingers(fingers, log.fingers.size(), true, log.name);
-  const FeltPart a(part, *finger_of(fingers, 0), log.fingers[0], start[0], noise);
+  const FeltPart a(part, *finger_of(fingers, 0), log.fingers[0], start[0], noise, start_error);
   if (log.fingers.size() == 1) return resting_poses(a, rows);
-  return moving_poses(a, FeltPart(part, *finger_of(fingers, 1), log.fingers[1], start[1], noise), rows);
+  return moving_poses(a, FeltPart(part, *finger_of(fingers, 1), log.fingers[1], start[1], noise, start_error), rows);
 }
 
 }  // namespace rollfix

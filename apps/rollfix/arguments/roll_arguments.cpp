@@ -271,10 +271,11 @@ std::optional<Noise> read_noise(const std::string& text, const std::string& unit
       for (const NoiseKind& one : kNoiseKinds) names.emplace_back(one.name);
       const bool may_be_decimals = !seen.empty() && parse_angle(field).has_value();  // "contact=0,1"
       throw InputError(fmt::format("--noise {}: {}{}", text,
-                                   may_be_decimals ? fmt::format("'{}' is not NAME=SD; numbers take a decimal point, as "
-                                                                 "in 0.5, not a comma; ",
-                                                                 field)
-                                                   : fmt::format("there is no noise '{}'; ", name),
+                                   may_be_decimals
+                                       ? fmt::format("'{}' is not NAME=SD; numbers take a decimal point, as "
+                                                     "in 0.5, not a comma; ",
+                                                     field)
+                                       : fmt::format("there is no noise '{}'; ", name),
                                    known_names(name, names)));
     }
     if (mark == std::string_view::npos) {
