@@ -180,6 +180,32 @@ Drawn noisy_stop(const Part& part, Generator& generator) {
   return {{part, rows_of(roll.log, 0, last_pivot(roll.truth) + 1), {finger}, noise_on(part)}, plan.start};
 }
 
+/// A finger that stays where it is and turns by a quarter turn to the left, as at a sharp convex corner.
+Problem pivoting_on(const Part& part, Generator& generator) {
+  Log log;
+  log.name = "pivot";
+  const Noise noise{.contact = 0.003, .angle = 0.009};
+  std::normal_distribution<double> normal;
+  for (int row = 0; row < 40; ++row) {
+    log.fingers[0].u.push_back((0.5 * noise.contact / 0.1) * normal(generator));
+    log.fingers[0].psi.push_back(0.5 * shapes::kPi * row / 39 + 0.5 * noise.angle * normal(generator));
+  }
+  return {part, log, {rollfix::disk(0.1)}, noise};
+}
+
+/// Twelve corners that turn by some 30 degrees, and in one side a dent: three corners, the middle one concave.
+Part dented() {
+  rollfix::Outline outline{"dented", {}, true};
+  std::vector<rollfix::Vec2> corners;
+  for (int k = 0; k < 12; ++k)
+    corners.emplace_back(2 * std::cos(k * shapes::kPi / 6), 2 * std::sin(k * shapes::kPi / 6));
+  corners.push_back(0.47 * (corners.back() + corners.front()));
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    outline.curves.push_back(rollfix::Line(corners[k], corners[(k + 1) % corners.size()]));
+  }
+  return Part(outline);
+}
+
 /// Of an answer to an honest log: that the true start is within `near` of a place that fits, and nothing
 /// is contradicted.
 testing::AssertionResult is_honest(const Drawn& drawn, double near) {
@@ -230,6 +256,17 @@ TEST(SharpCorners, do_not_hide_that_rows_are_noisier_than_their_digits) {
     for (rollfix::FingerRows& rows : unsaid.problem.measured.log->fingers) rows.x = rows.y = {};
     unsaid.problem.diagnose = false;
     EXPECT_TRUE(rollfix::solve(unsaid.problem).verdict.fits_badly) << "case " << k;
+  }
+}
+
+TEST(SharpCorners, that_are_concave_and_open_ends_are_no_places_to_pivot_at) {
+  rollfix::Outline bow{"bow", {rollfix::Arc({0, 0}, 3, 0, 0.4)}, false};
+  for (const Part& part : {dented(), Part(bow)}) {
+    Generator generator = test_generator(1);
+    Problem problem = pivoting_on(part, generator);
+    problem.diagnose = false;
+    const Answer answer = rollfix::solve(problem);
+    EXPECT_TRUE(answer.placements.empty() || answer.verdict.fits_badly) << part.name() << ": " << answer.verdict.text();
   }
 }
 

@@ -69,6 +69,17 @@ TEST(CliRollAll, TwoRollsWithLiftOffSayWhereThePartIs) {
   EXPECT_NEAR(found["pose"][0][2].get<double>(), 0.5, 1e-6);
 }
 
+TEST(CliRollAll, TheColumnsHaveNamesOfTheirOwn) {
+  const Folder folder;
+  folder.write("run.csv", log_of_two());
+  folder.write("named.csv", "t,skin,pad,wrist,tip_x,tip_y\n" + log_of_two().substr(header(true).size()));
+  const std::string named = "time=t,contact=skin,u=pad:rad,psi=wrist:rad,x=tip_x,y=tip_y";
+  const Ran ran = run("locate gallery:limacon --log named.csv --columns " + named + kRest + " --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.json()["placements"],
+            run("locate gallery:limacon --log run.csv" + kRest + " --json").json()["placements"]);
+}
+
 TEST(CliRollAll, WithoutCentresThePlaceIsNullAndTheHeadingKnown) {
   const Folder folder;
   folder.write("run.csv", log_of_two(false));

@@ -33,14 +33,7 @@ Case roll_on(const Part& part, const Finger& finger, double start, double length
   plan.start = start;
   plan.distance = length;
   plan.rows = 60;
-  rollfix::Log log = rollfix::noisy_roll(part, finger, plan, noise, seed).log;
-  std::mt19937_64 random(seed + 1);
-  std::normal_distribution<double> normal;
-  const auto off = [&] { return noise.position * normal(random); };
-  if (noise.position > 0) {
-    for (double& x : log.fingers[0].x) x += off();
-    for (double& y : log.fingers[0].y) y += off();
-  }
+  const rollfix::Log log = rollfix::noisy_roll(part, finger, plan, noise, seed).log;
   return {{part, log, {finger}, noise}, start};
 }
 

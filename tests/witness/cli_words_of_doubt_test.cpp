@@ -21,7 +21,7 @@ TEST(CliWords, what_the_other_rows_contradict_is_one_sentence) {
   folder.write("square.csv", "0 0\n4 0\n4 1\n1 1\n1 2\n0 2\n");
   std::string rows = "length,turn\n";
   for (int k = 1; k <= 8; ++k) rows += std::to_string(-0.005 * k) + ",0\n";
-  for (int k = 9; k <= 16; ++k) rows += std::to_string(-0.005 * k) + ",1.5707963\n";
+  for (int k = 9; k <= 16; ++k) rows += std::to_string(-0.005 * k) + (k == 12 ? ",1\n" : ",1.5707963\n");
   folder.write("back.csv", rows);
   const std::string text = run("locate square.csv --log back.csv").out;
   EXPECT_THAT(text,

@@ -44,12 +44,7 @@ Drawn drawn_on(const Part& part, std::uint64_t seed, std::size_t rows, const rol
     plan.fingers[1].finger = *tip;
     plan.fingers[1].u = 0;
   }
-  rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, noise, seed);
-  std::normal_distribution<double> off(0, noise.position);
-  for (rollfix::FingerRows& finger : roll.log.fingers) {
-    for (double& x : finger.x) x += off(generator);
-    for (double& y : finger.y) y += off(generator);
-  }
+  const rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, noise, seed);
   return {{part, roll.log, {plan.fingers[0].finger, plan.fingers[1].finger}, noise},
           {roll.truth.s[0].front(), roll.truth.s[1].front()}};
 }

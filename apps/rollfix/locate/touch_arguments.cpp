@@ -157,6 +157,7 @@ void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, R
 }
 
 bool is_table_of_touches(const std::string& path, const RollArguments& arguments) {
+  if (are_columns_of_roll(arguments.reading.columns)) return false;
   return is_touch_table(first_rows_of(path), table_options(arguments, ""));
 }
 

@@ -295,6 +295,16 @@ TiltedPlace RollFilter::after(const Row& measured, double further) const {
   return arc_->at(w_ + further + roll.turn + tilt_ * roll.length);
 }
 
+/// Beyond an arc's ends s stays, so that the equations let the contact turn on there for nothing, which no finger does:
+/// an open end and a concave corner are no corners to pivot at.
+double RollFilter::beyond_arc(const Node& node) const {
+  if (arc_->loop()) return 0;
+  const Corrected roll = corrected(node, x_);
+  const double w = w_ + roll.turn + tilt_ * roll.length;
+  const double beyond = std::max(arc_->lo() - w, w - arc_->hi());
+  return beyond > 0 ? beyond / std::sqrt(variance_of_roll(roll, {x_, p_}, node.own)) : 0;
+}
+
 /// All that the filter has learned stays true on a fold of the boundary: only w, s and the arc differ.
 RollFilter RollFilter::moved(const TiltedArc& arc, const Shift& shift) const {
   RollFilter there = *this;
