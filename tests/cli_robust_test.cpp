@@ -103,5 +103,16 @@ TEST(CliRobust, a_jump_in_degrees_is_told_how_degrees_are_written) {
       Not(HasSubstr("found a jump")));
 }
 
+TEST(CliRobust, a_jump_in_degrees_is_told_by_the_names_of_the_header) {
+  const cli::Folder folder;
+  std::string log = "t_sec,pad,wrist\n";
+  for (int k = 0; k < 60; ++k) log += fmt::format("{},{},{}\n", k, -10 - 3 * k, k < 30 ? 150 + k : 150 + k - 360);
+  folder.write("named.csv", log);
+  const std::string locate = "locate gallery:ellipse,a=200,b=150 --finger disk,r=1 --log named.csv --columns ";
+  EXPECT_THAT(run(locate + "u=pad,psi=wrist,time=t_sec:s").err,
+              HasSubstr("--columns u=pad:deg,psi=wrist:deg,time=t_sec:s"));
+  EXPECT_THAT(run(locate + "u=pad:deg,psi=wrist:deg,time=t_sec:s").err, Not(HasSubstr("found a jump")));
+}
+
 }  // namespace
 }  // namespace cli_robust_test

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
+#include "text/text.hpp"
 
 // From the rows of a log to readings.
 // Notation:
@@ -135,6 +137,23 @@ bool goes_in_degrees(const std::vector<double>& angles, std::size_t row) {
   return is_long(row) && 2 * count > angles.size();
 }
 
+/// What `columns` has to say so that these are in degrees, with the names that the log's header has for them, and with
+/// all other columns that have names of their own, so that it can be pasted as it is.
+std::string columns_in_degrees(const FingerRows& rows, const std::vector<std::string>& in_degrees) {
+  std::vector<std::string> fields;
+  for (const std::string& column : in_degrees) {
+    const auto is_it = [&](const ColumnSource& source) { return source.column == column; };
+    const auto named = std::find_if(rows.columns.begin(), rows.columns.end(), is_it);
+    fields.push_back(fmt::format("{}={}:deg", column, named == rows.columns.end() ? column : named->name));
+  }
+  for (const ColumnSource& source : rows.columns) {
+    const bool is_there = std::find(in_degrees.begin(), in_degrees.end(), source.column) != in_degrees.end();
+    if (is_there || (source.name == source.column && source.unit.empty())) continue;
+    fields.push_back(fmt::format("{}={}{}{}", source.column, source.name, source.unit.empty() ? "" : ":", source.unit));
+  }
+  return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
+}
+
 /// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.
 std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Finger>& fingers, const Noise& noise,
                          std::size_t finger, std::size_t row) {
@@ -151,20 +170,22 @@ std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Fin
     const double step = std::abs(rows.turn[row] - rows.turn[row - 1]);
     if (step < std::numbers::pi || step > kTurnInDegrees) return split;
     const char* const column = log.kind == LogKind::increments ? "dturn" : "turn";
-    return fmt::format("{0}; if the turns are in degrees, that is written `columns` {1}{2}={1}{2}:deg", split, column,
-                       suffix);
+    return fmt::format("{}; if the turns are in degrees, that is written `columns` {}", split,
+                       columns_in_degrees(rows, {column + suffix}));
   }
   // Degrees that wrap at 360 look like a jump of 360 radians.
   if (looks_like_degrees(rows.psi, row) || (has_angle_u && looks_like_degrees(rows.u, row))) {
-    const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
-    return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,
-                       suffix);
+    std::vector<std::string> angles{"psi" + suffix};
+    if (has_angle_u) angles.insert(angles.begin(), "u" + suffix);
+    return fmt::format("{}; if the angles are in degrees, that is written `columns` {}", split,
+                       columns_in_degrees(rows, angles));
   }
   // One of them alone, that is not wrapped: its rows go in steps of whole degrees.
   const bool is_psi = goes_in_degrees(rows.psi, row);
   if (!is_psi && !(has_angle_u && goes_in_degrees(rows.u, row))) return split;
-  return fmt::format("{0}; if {1} is in degrees, that is written `columns` {1}{2}={1}{2}:deg", split,
-                     is_psi ? "psi" : "u", suffix);
+  const std::string column = is_psi ? "psi" : "u";
+  return fmt::format("{}; if {} is in degrees, that is written `columns` {}", split, column,
+                     columns_in_degrees(rows, {column + suffix}));
 }
 
 /// Throws InputError where a finger is beyond its ends or goes where none can: see RollCheck.
