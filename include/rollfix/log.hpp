@@ -51,9 +51,9 @@ struct LogOptions {
   std::optional<bool> decimal_comma{};
   /// Rows that can't be read, a time that does not grow among them, are left out, and Log::skipped tells of them.
   bool skip_bad = false;
-  /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi (of a jaw -psi; of
-  /// an open outlined finger u is counted from its other end). What is
-  /// measured of a part that lies face down reads so like what is measured of the part as it was drawn.
+  /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi (of a jaw -psi;
+  /// of an open outlined finger u is counted from its other end). What is measured of a part that lies face down reads
+  /// so like what is measured of the part as it was drawn.
   bool mirrored = false;
   /// Lengths and distances count against the outline: they get the other sign. Of u and psi that is not meant.
   bool clockwise = false;

@@ -309,8 +309,8 @@ template <class A>
 void visit(A& a, FingerRows& v) {
   auto& [name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns,
          distance, dturn, u_wrapped, psi_wrapped] = v;
-  all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns, distance,
-      dturn, u_wrapped, psi_wrapped);
+  all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns,
+      distance, dturn, u_wrapped, psi_wrapped);
 }
 template <class A>
 void visit(A& a, Log& v) {
