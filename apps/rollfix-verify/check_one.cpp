@@ -96,7 +96,7 @@ class OneFinger {
       const std::optional<Row> row = readings_[k].row_at(start);
       if (!row) refuse(name + " ends at a joint");
       const Place end = document_.place_at(stated.at("end").at(k));
-      document_.require_as_far(row->end.s, end.s.middle(), name + ", end, as a place");
+      document_.require_as_far(row->end.s, end.s, name + ", end, as a place");
       // What rounded places change f by, through the curvature at both ends of the roll.
       const Ball slack = kTurnSlack + kRounding * period_ * (abs(row->from_start[0]) + abs(row->from_end[0]));
       const auto off = stated.at("off").at(k).get<double>();

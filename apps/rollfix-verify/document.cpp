@@ -142,8 +142,8 @@ bool Document::is_as_far(const Ball& s, const Ball& stated) const {
   return abs(off - laps).is_below(kLengthSlack * period_);
 }
 
-void Document::require_as_far(const Ball& s, double stated, const std::string& what) const {
-  if (!is_as_far(s, stated)) refuse_number(what, stated, s);
+void Document::require_as_far(const Ball& s, const Ball& stated, const std::string& what) const {
+  if (!is_as_far(s, stated)) refuse_number(what, stated.middle(), s);
 }
 
 /// |kappa| times the slack of lengths. At rest kappa has no bound: there the angles beside the place are compared with

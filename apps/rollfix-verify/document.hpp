@@ -61,7 +61,7 @@ class Document {
 
   /// Whether that is as far along, but for whole laps; refused where it is not.
   bool is_as_far(const Ball& s, const Ball& stated) const;
-  void require_as_far(const Ball& s, double stated, const std::string& what) const;
+  void require_as_far(const Ball& s, const Ball& stated, const std::string& what) const;
 
   /// A placement's kind: one that there is; a tangent is told unless the finger pivots.
   static std::string kind_of(const std::string& name, const Json& placement);

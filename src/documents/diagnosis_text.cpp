@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "documents/documents.hpp"
+#include "log/header/log_header.hpp"
 #include "roll/noise_kinds.hpp"
 #include "rollfix/documents.hpp"
 #include "text/text.hpp"
@@ -120,14 +121,6 @@ std::string finger_option(const Finger& finger) {
   return fmt::format("--finger disk,r={}", finger.disk()->radius);
 }
 
-std::string columns_option(const std::vector<ColumnSource>& columns) {
-  std::vector<std::string> fields;
-  for (const ColumnSource& source : columns) {
-    fields.push_back(fmt::format("{}={}{}{}", source.column, source.name, source.unit.empty() ? "" : ":", source.unit));
-  }
-  return "--columns " + quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
-}
-
 /// What is to be given, without the noise that it is to be given with.
 std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
   if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise);
@@ -137,7 +130,7 @@ std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fi
     if (diagnosis.cause == Cause::gyroscope) more.gyro = diagnosis.gyro;
     return noise_option(more);
   }
-  if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
+  if (!diagnosis.columns.empty()) return "--columns " + written(diagnosis.columns);
   if (diagnosis.cause == Cause::fingers_swapped) {
     if (fingers.size() != 2) return "give both in the other order";
     return fmt::format("{} {}", finger_option(fingers[1]), finger_option(fingers[0]));

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "log/header/log_header.hpp"
 #include "log/log_rows.hpp"
 #include "log/roll_check.hpp"
 #include "log/wrapping.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
-#include "text/text.hpp"
 
 // From the rows of a log to readings.
 // Notation:
@@ -140,18 +139,18 @@ bool goes_in_degrees(const std::vector<double>& angles, std::size_t row) {
 /// What `columns` has to say so that these are in degrees, with the names that the log's header has for them, and with
 /// all other columns that have names of their own, so that it can be pasted as it is.
 std::string columns_in_degrees(const FingerRows& rows, const std::vector<std::string>& in_degrees) {
-  std::vector<std::string> fields;
+  std::vector<ColumnSource> columns;
   for (const std::string& column : in_degrees) {
     const auto is_it = [&](const ColumnSource& source) { return source.column == column; };
     const auto named = std::find_if(rows.columns.begin(), rows.columns.end(), is_it);
-    fields.push_back(fmt::format("{}={}:deg", column, named == rows.columns.end() ? column : named->name));
+    columns.push_back({column, named == rows.columns.end() ? column : named->name, "deg"});
   }
   for (const ColumnSource& source : rows.columns) {
     const bool is_there = std::find(in_degrees.begin(), in_degrees.end(), source.column) != in_degrees.end();
-    if (is_there || (source.name == source.column && source.unit.empty())) continue;
-    fields.push_back(fmt::format("{}={}{}{}", source.column, source.name, source.unit.empty() ? "" : ":", source.unit));
+    const bool is_found_anyway = source.name == source.column && source.unit.empty();
+    if (!is_there && !is_found_anyway) columns.push_back(source);
   }
-  return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
+  return written(columns);
 }
 
 /// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.

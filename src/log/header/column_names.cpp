@@ -408,4 +408,12 @@ std::string suggested_columns(const std::vector<HeaderName>& header, const Colum
   return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
 }
 
+std::string written(const std::vector<ColumnSource>& columns) {
+  std::vector<std::string> fields;
+  for (const ColumnSource& one : columns) {
+    fields.push_back(fmt::format("{}={}{}{}", one.column, one.name, one.unit.empty() ? "" : ":", one.unit));
+  }
+  return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
+}
+
 }  // namespace rollfix

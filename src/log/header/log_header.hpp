@@ -70,4 +70,7 @@ bool holds_columns_of(const std::vector<HeaderName>& header, std::size_t finger)
 /// like: "u=contact_deg:deg,psi=yaw_deg:deg". Only for people to read and judge: nothing is read by it.
 std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found);
 
+/// As `columns` is typed, "u=pad:deg,psi=wrist:deg", fit for a shell.
+std::string written(const std::vector<ColumnSource>& columns);
+
 }  // namespace rollfix
