@@ -131,6 +131,7 @@ TEST_F(CatalogFile, that_was_damaged_says_so) {
   write("text.db", "no catalog at all, but some text that is longer than the header of a file that SQLite would have");
   EXPECT_THAT(refusal_of([] { Catalog("text.db"); }), HasSubstr("is not a catalog"));
   EXPECT_THAT(refusal_of([] { Catalog("nowhere.db"); }), HasSubstr("there is no such file"));
+  EXPECT_THAT(refusal_of([] { Catalog("."); }), HasSubstr("is a folder, expected a catalog's file"));
 }
 
 constexpr const char* kNothing = "nothing was thrown";

@@ -216,6 +216,27 @@ TEST(CliUnits, corners_made_of_a_sparse_curve_are_told) {
   EXPECT_EQ(run("inspect dense.csv --json").err, "");
 }
 
+TEST(CliUnits, corners_that_a_curve_rounds_are_told) {
+  const cli::Folder folder;
+  folder.write("octagon.csv", "1 0\n0.7 0.7\n0 1\n-0.7 0.7\n-1 0\n-0.7 -0.7\n0 -1\n0.7 -0.7\n");
+  folder.write("chamfer.csv", "0 0\n1 0\n2 0\n2.5 0.5\n2.5 1\n2.5 2\n0 2\n0 1\n");
+  EXPECT_THAT(run("inspect octagon.csv --json").err, HasSubstr("a smooth curve runs through 8 points"));
+  EXPECT_THAT(run("inspect chamfer.csv --json").err,
+              AllOf(HasSubstr("through 2 points whose chords turn by 45deg or more, first (2, 0)"),
+                    HasSubstr("--corner-angle 40deg keeps them")));
+  const cli::Ran kept = run("inspect chamfer.csv --corner-angle 40deg --json");
+  EXPECT_EQ(kept.json()["part"]["corners"], 5);
+  EXPECT_EQ(kept.err, "");
+}
+
+TEST(CliUnits, bends_of_a_sparse_curve_are_not_told) {
+  const cli::Folder folder;
+  std::string wave = "";  // neighbours turn by up to 37 degrees to and fro
+  for (int k = 0; k <= 30; ++k) wave += fmt::format("{},{}\n", k, 0.5 * std::sin(k * 1.2));
+  folder.write("wave.csv", wave);
+  EXPECT_EQ(run("inspect wave.csv --open --json").err, "");
+}
+
 TEST(CliUnits, corners_that_are_meant_are_not_told) {
   const cli::Folder folder;
   folder.write("square.csv", "0 0\n1 0\n1 1\n0 1\n");

@@ -60,6 +60,16 @@ TEST_F(Identify, says_none_where_nothing_fits) {
   const cli::Ran ran = run("identify parts.db --reading 0.50000,-3.00000");
   EXPECT_EQ(ran.code, 1);
   EXPECT_THAT(ran.out, testing::StartsWith("none\n"));
+  EXPECT_THAT(ran.out, HasSubstr("no place of any part fits the roll: check"));
+}
+
+TEST_F(Identify, says_which_noise_to_state_where_the_rows_jitter) {
+  const std::string noise = " --noise contact=0.003,angle=0.01";
+  run("simulate gallery:" + kShapes[2] + " --finger disk,r=0.1 --start 0.8 --length 1.5 --samples 60 -o noisy.csv" +
+      noise);
+  const cli::Ran ran = run("identify parts.db --log noisy.csv --finger disk,r=0.1");
+  EXPECT_THAT(ran.out, testing::StartsWith("none\n"));
+  EXPECT_THAT(ran.out, HasSubstr("no noise was stated\n  try --noise contact=0.00"));
 }
 
 TEST_F(Identify, says_of_each_part_what_locate_says) {

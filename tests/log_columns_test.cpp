@@ -49,6 +49,14 @@ TEST(LogColumns, a_header_states_units_in_brackets) {
   expect_the_rows(log_of("\"time [ms]\";\"u [deg]\";\"psi [deg]\"\n0;0;10\n250;-12.5;20.25\n500;-25;30.5\n"));
 }
 
+TEST(LogColumns, capitals_do_not_matter_where_no_other_column_has_the_name) {
+  expect_the_rows(log_of(std::string("Time [ms],U [Deg],PSI (deg)\n") + kRows));
+  const Log two = log_of("U_A,Psi_A,u_b,psi_B\n0,0,0,0\n1,2,3,4\n");
+  EXPECT_THAT(two.fingers[1].psi, ElementsAre(0, 4));
+  EXPECT_THAT(log_of("U,u,psi\n7,0,0\n9,1,2\n").fingers[0].u, ElementsAre(0, 1));
+  EXPECT_THAT(log_of("U,psi\n0,0\n1,2\n", columns("u=U:deg")).fingers[0].u, ElementsAre(0, kPi / 180));
+}
+
 TEST(LogColumns, options_say_what_columns_are_called_and_in_what_they_are) {
   const std::string text = std::string("stamp,contact_deg,yaw_deg\n") + kRows;
   expect_the_rows(log_of(text, columns("u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms")));

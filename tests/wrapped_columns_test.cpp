@@ -115,6 +115,17 @@ TEST(WrappedColumns, rows_that_are_near_together_show_by_themselves_where_they_a
   }
 }
 
+TEST(WrappedColumns, among_many_rows_near_together_noise_leaves_no_doubt_where_they_are_wrapped) {
+  std::mt19937_64 generator = test_generator(73);
+  std::normal_distribution<double> noise(0, 0.004 * 0.3);
+  for (int k = 0; k < test_count(200); ++k) {
+    std::vector<double> distances;
+    for (int row = 0; row <= 400; ++row) distances.push_back(0.3 * kTurn * row / 400.0 + noise(generator));
+    const Log log = felt(distances, 0.1 * k);
+    expect_same_readings(wrapped(log), log);
+  }
+}
+
 TEST(WrappedColumns, columns_say_it_in_the_options) {
   const std::string text = "skin,psi\n0,0\n-4,4.5\n-5,5\n";
   const Log one = parse_log(text, "log", {parse_columns("u=skin:unwrapped,psi=psi:rad:unwrapped")});

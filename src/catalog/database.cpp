@@ -106,6 +106,11 @@ Database::Database(const std::string& path, Access access) : path_(path) {
   if (access == Access::read && !std::filesystem::exists(path)) {
     throw InputError(fmt::format("{}: there is no such file; rollfix catalog build makes one", path));
   }
+  if (std::filesystem::is_directory(path)) {
+    throw InputError(fmt::format(
+        "{}: is a folder, expected a catalog's file; rollfix catalog build {} -o parts.db makes one of its outlines",
+        path, path));
+  }
   // For reading as well: what a build that was killed left half done has to be taken back first. Where the file may not
   // be written SQLite opens it for reading only.
   const int flags = SQLITE_OPEN_READWRITE | (access == Access::read ? 0 : SQLITE_OPEN_CREATE);

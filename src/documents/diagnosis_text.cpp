@@ -102,19 +102,6 @@ std::string known_scale(const Diagnosis& diagnosis) {
   return "";
 }
 
-/// As it is typed.
-std::string noise_option(const Noise& noise) {
-  std::vector<std::string> fields;
-  for (const NoiseKind& kind : kNoiseKinds) {
-    const double sd = noise.*kind.sd;
-    if (sd <= 0) continue;
-    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
-    fields.push_back(is_angle ? fmt::format("{}={:.3g}deg", kind.name, sd * 180 / std::numbers::pi)
-                              : fmt::format("{}={:.3g}", kind.name, sd));
-  }
-  return fmt::format("--noise {}", fmt::join(fields, ","));
-}
-
 /// As it was typed, whatever its digits.
 std::string finger_option(const Finger& finger) {
   if (!finger.is_disk()) return "--finger " + quoted_for_shell(finger.name());
@@ -181,6 +168,19 @@ std::string counted_rows(int rows) { return fmt::format("{} {}", rows, rows == 1
 
 }  // namespace
 
+/// As it is typed.
+std::string noise_option(const Noise& noise) {
+  std::vector<std::string> fields;
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    if (sd <= 0) continue;
+    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
+    fields.push_back(is_angle ? fmt::format("{}={:.3g}deg", kind.name, sd * 180 / std::numbers::pi)
+                              : fmt::format("{}={:.3g}", kind.name, sd));
+  }
+  return fmt::format("--noise {}", fmt::join(fields, ","));
+}
+
 const char* name_of(Cause cause) { return text_of(cause).name; }
 
 std::string about(const Diagnosis& diagnosis) {
@@ -203,7 +203,8 @@ std::string about(const Diagnosis& diagnosis) {
       return fmt::format("all turns are {:.4f} ± {:.2g} times what was measured: a gyroscope's scale",
                          diagnosis.turn_scale, diagnosis.turn_scale_sd);
     case Cause::stray:
-      return fmt::format("{} {} stray", counted(diagnosis.stray, "row", "rows"), diagnosis.stray == 1 ? "is" : "are");
+      return fmt::format("{} {}", counted(diagnosis.stray, "row is an", "rows are"),
+                         diagnosis.stray == 1 ? "outlier" : "outliers");
     default:
       return text_of(diagnosis.cause).what;
   }

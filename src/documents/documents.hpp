@@ -48,6 +48,9 @@ const char* name_of(Cause cause);
 /// What to give instead, with these fingers and this noise as given.
 std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& said);
 
+/// As it is typed: "--noise contact=0.05,angle=0.2deg".
+std::string noise_option(const Noise& noise);
+
 /// What was done about a taught course's ends, in one word.
 const char* name_of(Closing closing);
 

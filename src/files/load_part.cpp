@@ -289,7 +289,8 @@ LoadedPart load_points(std::string text, const std::string& name, const LoadOpti
     }
   }();
   for (const std::string& note :
-       {files::sparse_corners_note(points, known, loaded.part), files::noisy_points_note(points, known, loaded.part)}) {
+       {files::sparse_corners_note(points, known, loaded.part), files::rounded_corners_note(points, known, loaded.part),
+        files::noisy_points_note(points, known, loaded.part)}) {
     if (!note.empty()) notes.push_back(note);
   }
   loaded.notes = std::move(notes);

@@ -151,12 +151,21 @@ std::vector<std::size_t> corners_of(const std::vector<Vec2>& points, const Outli
   return corners;
 }
 
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kStep = 5;  // of round angles, in degrees
+
 /// A round number of degrees above it.
 int whole_degrees_above(double angle) {
-  constexpr int kStep = 5;
-  const int degrees = kStep * (static_cast<int>(angle * 180 / std::numbers::pi) / kStep + 1);
+  const int degrees = kStep * (static_cast<int>(angle / kDegree) / kStep + 1);
   return std::min(degrees, 180);
 }
+
+/// A round number of degrees below it, for angles of more than kStep.
+int whole_degrees_below(double angle) { return kStep * (static_cast<int>(std::ceil(angle / kDegree / kStep)) - 1); }
+
+/// A curve whose chords turn by less is sampled well enough for a spline; above, a point beside a straight side is more
+/// often a corner, of a chamfer or an octagon.
+constexpr double kLeastRounded = 30 * kDegree;
 
 }  // namespace
 
@@ -184,8 +193,28 @@ std::string sparse_corners_note(const std::vector<Vec2>& points, const OutlineOp
   return fmt::format(
       "{}: made {} of points where a sparsely sampled curve turns by {:.3g}deg or more: at s = {}{}; `corner_angle` "
       "{}deg makes a curve of them",
-      part.name(), counted(places.size(), "corner", "corners"), least * 180 / std::numbers::pi, where,
+      part.name(), counted(places.size(), "corner", "corners"), least / kDegree, where,
       places.size() > kMostNamed ? ", ..." : "", whole_degrees_above(most));
+}
+
+std::string rounded_corners_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part) {
+  if (options.smooth || options.corner_angle || options.airfoil || points.size() < 3) return "";
+  const ChordTurns turns(points, !options.open);
+  std::size_t count = 0;
+  std::size_t first = 0;
+  double least = kCornerAngle;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double turn = std::abs(turns.at(k));
+    if (turn < kLeastRounded || turn >= kCornerAngle || !turns.has_straight_side(k, kLeastRounded)) continue;
+    if (count++ == 0) first = k;
+    least = std::min(least, turn);
+  }
+  if (count == 0) return "";
+  return fmt::format(
+      "{}: a smooth curve runs through {} whose chords turn by {:.3g}deg or more, first ({}, {}): if the part has "
+      "corners there, `corner_angle` {}deg keeps them",
+      part.name(), counted(count, "point", "points"), least / kDegree, points[first].x(), points[first].y(),
+      whole_degrees_below(least));
 }
 
 }  // namespace rollfix::files

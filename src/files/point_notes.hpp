@@ -25,4 +25,9 @@ std::string noisy_crossing_hint(const std::vector<Vec2>& points, const OutlineOp
 /// corner whose neighbours go straight on, or a polygon's, whose neighbours are corners as well.
 std::string sparse_corners_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part);
 
+/// What to tell who gave these points, of which the part was made: that a curve runs through some that look like a
+/// corner with an angle below kCornerAngle, how many, and how to keep them as corners. Empty where there are none, and
+/// where the points were smoothed, or an angle was given.
+std::string rounded_corners_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part);
+
 }  // namespace rollfix::files

@@ -44,6 +44,10 @@ constexpr double kFarRows = 0.4;
 constexpr double kShortStep = 0.8;
 // One no longer than this many times as long belongs to them where it goes on as its neighbours do.
 constexpr double kLikeStep = 2;
+// Noise turns neighbours around. Among so many rows this near together the other reading is a single step of more than
+// 25 times any other.
+constexpr double kNearestRows = 1.0 / 50;
+constexpr std::size_t kManySteps = 20;
 
 /// The whole turns that such a step takes back.
 double turns_in(double step, double period) { return std::abs(step) > period / 2 ? std::round(step / period) : 0; }
@@ -100,11 +104,12 @@ std::optional<std::size_t> unclear_step(const std::vector<double>& angles, doubl
   if (far.empty() || (is_wrapped_often && longest <= kFarRows * period)) return std::nullopt;
   // A far step, taken back, is clear where it is like the steps around it, and those are short. Else the column may as
   // well go through less than a turn in one step.
+  const bool is_dense = steps.size() >= kManySteps && longest <= kNearestRows * period;
   for (const std::size_t k : far) {
     const double size = std::abs(steps[k]);
     // A neighbouring step goes the same way.
     const bool goes_on =
-        (k > 0 && steps[k - 1] * steps[k] > 0) || (k + 1 < steps.size() && steps[k + 1] * steps[k] > 0);
+        is_dense || (k > 0 && steps[k - 1] * steps[k] > 0) || (k + 1 < steps.size() && steps[k + 1] * steps[k] > 0);
     const bool belongs = size <= kShortStep * longest || (goes_on && size <= kLikeStep * longest);
     if (!belongs || longest > kNearRows * period) return k + 1;
   }

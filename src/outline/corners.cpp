@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "outline/turn.hpp"
@@ -28,6 +29,9 @@ constexpr double kNeighbourShare = 0.12;
 /// From one point to the next a nose's curvature grows by this; that of arcs is the same.
 constexpr double kNoseGrowth = 1.2;
 
+/// Points of a straight side turn by less, radians: rounded digits.
+constexpr double kStraightSide = 0.01;
+
 /// A corner of an airfoil this near to its end, as a share of the chord, is at its trailing edge.
 constexpr double kTrailingEdge = 0.02;
 
@@ -48,19 +52,30 @@ double ChordTurns::curvature(std::size_t k) const {
   return 2 * at(k) / length;
 }
 
+std::optional<std::size_t> ChordTurns::straighter_beside(std::size_t k, double least, bool after) const {
+  const auto step = [&](std::size_t i) { return after ? next(i) : previous(i); };
+  std::size_t neighbour = step(k);
+  for (std::size_t steps = 0; steps < points_.size(); ++steps, neighbour = step(neighbour)) {
+    if (std::abs(at(neighbour)) < least) return neighbour;
+  }
+  return std::nullopt;
+}
+
 bool ChordTurns::goes_on(std::size_t k, double least) const {
-  const auto bends_along = [&](const auto& step) {
-    // The first point on this side that turns by less than `least`: those that turn more may be part of the same nose.
-    // Once around without one: every point turns like a corner, as on a polygon.
-    std::size_t neighbour = step(k);
-    std::size_t steps = 0;
-    while (std::abs(at(neighbour)) >= least && ++steps < points_.size()) neighbour = step(neighbour);
+  const auto bends_along = [&](bool after) {
+    const std::optional<std::size_t> neighbour = straighter_beside(k, least, after);
     // It turns the same way, by at least kNeighbourShare of the turn here.
-    return steps < points_.size() && at(neighbour) * at(k) > 0 &&
-           std::abs(at(neighbour)) >= kNeighbourShare * std::abs(at(k));
+    return neighbour && at(*neighbour) * at(k) > 0 && std::abs(at(*neighbour)) >= kNeighbourShare * std::abs(at(k));
   };
-  return bends_along([this](std::size_t i) { return next(i); }) &&
-         bends_along([this](std::size_t i) { return previous(i); });
+  return bends_along(true) && bends_along(false);
+}
+
+bool ChordTurns::has_straight_side(std::size_t k, double least) const {
+  const auto is_straight = [&](bool after) {
+    const std::optional<std::size_t> neighbour = straighter_beside(k, least, after);
+    return !neighbour || (!is_open_end(*neighbour) && std::abs(at(*neighbour)) < kStraightSide);
+  };
+  return is_straight(true) || is_straight(false);
 }
 
 bool ChordTurns::is_nose(std::size_t k, double least) const {

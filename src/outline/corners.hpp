@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "rollfix/curve.hpp"
@@ -20,6 +21,9 @@ class ChordTurns {
   /// Whether the curve bends on both sides of this point as it does here, behind those that turn by `least` as well: a
   /// curve that is sampled sparsely, and no corner.
   bool goes_on(std::size_t k, double least) const;
+  /// Whether the side before this point or behind it is straight, points that turn by `least` left out; of a polygon,
+  /// all of whose points do, it is. Of a side that is an open end's it can't be told.
+  bool has_straight_side(std::size_t k, double least) const;
   /// The same of a nose: towards the point it bends more and more, from both sides. Along arcs that meet in a corner it
   /// does not.
   bool is_nose(std::size_t k, double least) const;
@@ -28,6 +32,9 @@ class ChordTurns {
   /// Cyclic, also for open points: `at` is 0 at their ends, before a neighbour is asked for.
   std::size_t next(std::size_t k) const { return (k + 1) % points_.size(); }
   std::size_t previous(std::size_t k) const { return (k + points_.size() - 1) % points_.size(); }
+  /// The first point after this one, or before it, that turns by less than `least`: those that turn more may be part of
+  /// the same nose. None: once around every point turns like a corner, as on a polygon.
+  std::optional<std::size_t> straighter_beside(std::size_t k, double least, bool after) const;
   bool is_open_end(std::size_t k) const { return !closed_ && (k == 0 || k + 1 == points_.size()); }
   /// The turn at point k by the length that it takes, 1 / length: the curvature of a curve through the points, roughly.
   double curvature(std::size_t k) const;

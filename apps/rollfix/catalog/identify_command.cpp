@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "documents/documents.hpp"
 #include "documents/json_output.hpp"
+#include "log/jitter.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
@@ -264,6 +266,22 @@ Svg figure_of(const Identified& found, const Catalog& catalog) {
   return draw_parts(figure);
 }
 
+/// What to try where a roll fits no part: the noise that its rows show, where none was stated.
+std::string advice_of_none(const Problem& question) {
+  if (!question.noise && question.measured.is_log()) {
+    if (const auto shown = noise_that_shows(*question.measured.log, question.fingers)) {
+      return fmt::format(
+          "the rows jitter by more than their digits say, but no noise was stated\n  try {}; slip and a wrong radius "
+          "may "
+          "add to it\n",
+          noise_option(*shown));
+    }
+  }
+  return "no place of any part fits the roll: check the finger's radius, the unit and the signs of the columns, and "
+         "the "
+         "noise; or the part is not in the catalog\n";
+}
+
 /// By touches, or by several rolls and touches, of which --roll all says that they share a pose.
 Report report_of_contacts(const TouchProblem& question, const IdentifyArguments& arguments, const Catalog& catalog,
                           const IdentifyOptions& options, Report report) {
@@ -299,6 +317,7 @@ Report identify_report(const IdentifyArguments& arguments) {
   const Problem question = may_share_a_pose ? roll_problem(asked) : read_question(arguments, catalog, report.notes);
   const Identified found = identify(catalog, question, options);
   report = of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
+  if (!arguments.json && found.verdict == "none") report.data += advice_of_none(question);
   if (!arguments.output.file.empty()) add_figure(arguments.output, figure_of(found, catalog), report);
   return report;
 }

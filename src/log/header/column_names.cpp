@@ -33,6 +33,12 @@ bool is_known(std::string_view name) {
   return std::find(kColumnNames.begin(), kColumnNames.end(), name) != kColumnNames.end();
 }
 
+bool is_known_of_any(std::string_view name) {
+  const std::array<std::string, 3> suffixes = {"", kFingerSuffixes[0], kFingerSuffixes[1]};
+  return std::any_of(suffixes.begin(), suffixes.end(),
+                     [&](const std::string& suffix) { return column_named(name, suffix).has_value(); });
+}
+
 bool says_where(std::string_view name) {
   return std::any_of(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& pair) {
     return name == name_of(pair.place) || name == name_of(pair.angle);
@@ -46,7 +52,7 @@ bool says_where_of_one_of_two(std::string_view name) {
   });
 }
 
-/// Without a suffix, of the log of one finger; with one, of one of two. Names have to match exactly, capitals too.
+/// Without a suffix, of the log of one finger; with one, of one of two. Names have to match exactly, in small letters.
 std::optional<Column> column_named(std::string_view name, const std::string& suffix) {
   for (std::size_t k = 0; k < kColumnCount; ++k) {
     const auto column = static_cast<Column>(k);
@@ -109,8 +115,8 @@ ColumnSource parse_source(std::string_view field, const std::string& what) {
         fmt::format("{}: '{}' is not COLUMN=NAME or COLUMN=NAME:UNIT, as in u=contact_deg:deg", what, shown(field)));
   }
   ColumnSource source{std::string(trimmed(field.substr(0, mark))), std::string(trimmed(field.substr(mark + 1)))};
-  std::optional<Column> column;
   // The column of one finger, or of either of two.
+  std::optional<Column> column;
   for (const char* const suffix : {"", kFingerSuffixes[0], kFingerSuffixes[1]}) {
     if (!column) column = column_named(source.column, suffix);
   }

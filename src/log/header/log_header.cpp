@@ -31,7 +31,7 @@ constexpr const char* kExpected = "'u' and 'psi', or 'length' and 'turn', or 'di
 
 /// Name and unit of a header's cell: "u [deg]", "u(deg)". Without brackets at its end all of it is the name.
 HeaderName header_name(std::string_view text) {
-  HeaderName result{text, text, {}};
+  HeaderName result{text, text, {}, {}};
   if (text.empty()) return result;
   const char open = text.back() == ']' ? '[' : text.back() == ')' ? '(' : '\0';
   const std::size_t start = open == '\0' ? std::string_view::npos : text.rfind(open);
@@ -68,6 +68,13 @@ std::vector<HeaderName> names_in(const TableRow& header) {
   }
   std::vector<HeaderName> names;
   for (const std::string_view cell : cells) names.push_back(header_name(cell));
+  const auto has = [&](const std::string& name) {
+    return std::any_of(names.begin(), names.end(), [&](const HeaderName& one) { return one.name == name; });
+  };
+  for (HeaderName& one : names) {
+    const std::string small = lower_case(one.name);
+    if (is_known_of_any(small) && (one.name == small || !has(small))) one.known = small;
+  }
   return names;
 }
 
@@ -118,9 +125,9 @@ class HeaderReader {
     const auto is_one = [](const ColumnSource& source) { return says_where(source.column); };
     if (std::any_of(sources.begin(), sources.end(), is_two)) return true;
     if (std::any_of(sources.begin(), sources.end(), is_one)) return false;
-    return std::none_of(names_.begin(), names_.end(), [](const HeaderName& one) { return says_where(one.name); }) &&
+    return std::none_of(names_.begin(), names_.end(), [](const HeaderName& one) { return says_where(one.known); }) &&
            std::any_of(names_.begin(), names_.end(),
-                       [](const HeaderName& one) { return says_where_of_one_of_two(one.name); });
+                       [](const HeaderName& one) { return says_where_of_one_of_two(one.known); });
   }
 
   // Steps of the above, see each below.
@@ -221,7 +228,7 @@ void HeaderReader::add_known(Columns& columns, const std::vector<bool>& taken) c
   const auto is_named = [&](const ColumnPair& pair) { return named.has(pair.place) || named.has(pair.angle); };
   const bool pair_is_chosen = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), is_named);
   for (std::size_t k = 0; k < names_.size(); ++k) {
-    const std::optional<Column> column = column_named(names_[k].name, columns.suffix);
+    const std::optional<Column> column = column_named(names_[k].known, columns.suffix);
     // Not known, used already, or named by the options elsewhere.
     if (!column || taken[k] || named.has(*column)) continue;
     const auto* const pair = std::find_if(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& one) {
@@ -244,7 +251,7 @@ void HeaderReader::set(Columns& columns, Column column, std::size_t k) const {
   }
   cell = k;
   columns.source[static_cast<std::size_t>(column)] = {columns.called(column), std::string(names_[k].name)};
-  if (column == Column::contact) columns.contact_is_shared = names_[k].name == name_of(Column::contact);
+  if (column == Column::contact) columns.contact_is_shared = names_[k].known == name_of(Column::contact);
 }
 
 /// The unit of a column, and how its numbers are converted. `stated`: by the options; it goes before what the header
@@ -269,7 +276,9 @@ void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& h
         meant, columns.called(column), header.name, meant,
         is_angle(column) ? fmt::format(", or with :rad where the numbers are radians") : ""));
   }
-  const std::optional<Unit> unit = unit_named(written);
+  // As written first, since capitals can tell units apart.
+  const std::optional<Unit> as_written = unit_named(written);
+  const std::optional<Unit> unit = as_written ? as_written : unit_named(lower_case(written));
   if (!unit || !takes(column, unit->dimension)) {
     throw InputError(fmt::format("{} is in '{}', expected {}", what, shown(written), what_it_takes(column)));
   }
@@ -348,7 +357,7 @@ std::string HeaderReader::hint(const Columns& columns) const {
   }
   // Names that are known, or the other finger's, are no typos.
   for (const HeaderName& one : names_) {
-    if (is_known(one.name) || (!columns.suffix.empty() && says_where_of_one_of_two(one.name))) continue;
+    if (is_known(one.known) || (!columns.suffix.empty() && says_where_of_one_of_two(one.known))) continue;
     const std::string nearest = nearest_name(std::string(one.name), missing);
     if (!nearest.empty()) return fmt::format("; did you mean '{}' by '{}'?", nearest, shown(one.text));
   }
@@ -360,7 +369,7 @@ std::string HeaderReader::hint(const Columns& columns) const {
 std::string HeaderReader::cure(const Columns& columns) const {
   // Without an unknown name there is nothing to guess from.
   const bool any_is_left =
-      std::any_of(names_.begin(), names_.end(), [](const HeaderName& one) { return !is_known(one.name); });
+      std::any_of(names_.begin(), names_.end(), [](const HeaderName& one) { return !is_known(one.known); });
   if (!any_is_left) return fmt::format("; the header has {}", all_names());
   return fmt::format("; say which column is which, as in `columns` {} (the header has {}){}",
                      suggested_columns(names_, columns), all_names(),

@@ -13,6 +13,8 @@ namespace rollfix {
 // What columns are called, and what may be said of one: "u_a", "psi=yaw:deg:unwrapped".
 
 bool is_known(std::string_view name);
+/// Also with a finger's suffix behind it: "u", "u_a".
+bool is_known_of_any(std::string_view name);
 
 /// Whether one of the pairs has a column of this name.
 bool says_where(std::string_view name);
@@ -36,10 +38,11 @@ struct HeaderName {
   std::string_view text;  // "u [deg]"
   std::string_view name;  // "u"
   std::string_view unit;  // "deg", or whatever stands in the brackets; empty: none
+  std::string known{};    // the column that a log may have by this name: "u", "psi_a"; empty: none
 };
 
 /// What stands over the columns. Where blanks separate, a unit behind a name is cut off it: they are put together
-/// again.
+/// again. Names are known by capitals too, "U" and "Psi", unless the header also has the name in small letters.
 std::vector<HeaderName> names_in(const TableRow& header);
 
 /// The columns of a log with this header, of one finger or of two. Throws InputError: no known column, half of a pair,
