@@ -1,12 +1,16 @@
 // Rolls that begin or end at a sharp corner: exact but for their digits, and with noise.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "random.hpp"
+#include "rollfix/log.hpp"
+#include "rollfix/outline.hpp"
 #include "rollfix/rolling.hpp"
 #include "rollfix/solve.hpp"
 #include "shapes.hpp"
@@ -193,6 +197,18 @@ Problem pivoting_on(const Part& part, Generator& generator) {
   return {part, log, {rollfix::disk(0.1)}, noise};
 }
 
+/// A length of 0.4 along a side, then 60 degrees to the left about a corner, as a finger of which nothing is known.
+Log side_and_pivot(Generator& generator) {
+  std::normal_distribution<double> normal;
+  std::string text = "length,turn\n";
+  for (int row = 1; row <= 40; ++row) {
+    const double length = std::min(0.02 * row, 0.4) + 0.01 * normal(generator);
+    const double turn = std::max(0, row - 20) / 20.0 * shapes::kPi / 3 + 0.005 * normal(generator);
+    text += fmt::format("{},{}\n", length, turn);
+  }
+  return rollfix::parse_log(text, "side and pivot");
+}
+
 /// Twelve corners that turn by some 30 degrees, and in one side a dent: three corners, the middle one concave.
 Part dented() {
   rollfix::Outline outline{"dented", {}, true};
@@ -267,6 +283,22 @@ TEST(SharpCorners, that_are_concave_and_open_ends_are_no_places_to_pivot_at) {
     problem.diagnose = false;
     const Answer answer = rollfix::solve(problem);
     EXPECT_TRUE(answer.placements.empty() || answer.verdict.fits_badly) << part.name() << ": " << answer.verdict.text();
+  }
+}
+
+TEST(SharpCorners, that_are_concave_get_no_probability_beside_convex_ones) {
+  const std::vector<rollfix::Vec2> corners = {{0, 0}, {4, 0}, {4, 1.5}, {1.5, 1.5}, {1.5, 3}, {0, 3}};
+  const Part angle(rollfix::outline_through(corners, "angle", {.corner_angle = 0}));
+  constexpr double kConcave = 8;  // s at (1.5, 1.5)
+  for (const bool robust : {false, true}) {
+    Generator generator = test_generator(2);
+    Problem problem{angle, side_and_pivot(generator), {}, Noise{.contact = 0.01, .angle = 0.005}};
+    problem.robust = robust;
+    const Answer answer = rollfix::solve(problem);
+    EXPECT_EQ(answer.placements.size(), 5U);
+    for (const rollfix::Placement& place : answer.placements) {
+      EXPECT_GT(std::abs(place.start[0] + 0.4 - kConcave), 0.1) << (robust ? "robust" : "plain");
+    }
   }
 }
 

@@ -18,7 +18,7 @@
 // Follows docs/belief.md, "The computation". In `about` a normal distribution of w is taken at its mean and at sqrt(3)
 // standard deviations on both sides, with the weights 2/3, 1/6, 1/6 of the Gauss-Hermite rule of three points.
 // Idea: by w a contact is told by one number everywhere, at corners too; s is a continuous function of it. An arc ends
-// only at concave corners and at the ends of an open boundary, which no finger rolls over.
+// only at concave corners and at the ends of an open boundary, which no finger rolls over or pivots at.
 namespace rollfix::belief {
 
 namespace {
@@ -39,6 +39,8 @@ constexpr int kMostHalvings = 24;
 constexpr std::size_t kBucketsPerCell = 2;
 // Where three points stand for a normal distribution, as many standard deviations from the mean.
 constexpr double kSigmaPoint = std::numbers::sqrt3;
+// So many standard deviations beyond an arc's end are a contact's that rests there, with its noise.
+constexpr double kOfNoise = 4;
 // Slopes that differ by more than this share of the larger one make a kink.
 constexpr double kKink = 1e-3;
 // Rows that are joined lie on a parabola where the slope changes by less than this share among them.
@@ -118,7 +120,14 @@ SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
   const double half = 0.5 * (above - below);
   const double bend = below - 2 * middle + above;
   // Of the three about their mean, less what the straight line explains.
-  return {mean, reach > 0 ? half / reach : 0, bend * bend / 18};
+  SpreadPlace place{mean, reach > 0 ? half / reach : 0, bend * bend / 18};
+  const double past = loop_ ? 0 : std::max(lo() - w, w - hi_);
+  const double sd = std::sqrt(variance + spread);
+  if (past > kOfNoise * sd && sd > 0) {
+    place.beyond = past / sd - kOfNoise;
+    place.beyond_by_w = (w > hi_ ? 1 : -1) / sd;
+  }
+  return place;
 }
 
 /// Both sides of a small concave joint reach w: the cells before that begin above w are dropped, the one after is cut.

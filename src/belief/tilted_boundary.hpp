@@ -58,6 +58,10 @@ struct SpreadPlace {
   double s = 0;
   double slope = 0;
   double variance = 0;
+  /// How far w is beyond an end of its arc, in standard deviations, less what noise explains; and its derivative by w.
+  /// An open end and a concave corner are no corners to pivot at: what is beyond contradicts the place.
+  double beyond = 0;
+  double beyond_by_w = 0;
 };
 
 /// A stretch of the boundary that a finger can roll along: all of a closed one, or what lies between its ends and

@@ -213,9 +213,6 @@ class Grid {
   void measure_fit(const Nodes& nodes);
   /// How far the finger rolls from one node to the next; 0 where neighbours can't be said to be alike.
   double step_between(const Nodes& nodes) const;
-  /// How unlikely it is that rows turn on so far beyond an arc's ends; of the likeliest points at the one where it is
-  /// least.
-  double least_beyond_arc(const Nodes& nodes, const GridPoint& best) const;
   /// Halves cells until all that matter are resolved.
   void resolve(const Nodes& nodes);
   const GridPoint& best_point(const Nodes& nodes) const;

@@ -143,36 +143,6 @@ double Grid::step_between(const Nodes& nodes) const {
   return count > 0 ? travelled / count : 0;
 }
 
-namespace {
-
-// Places whose log likelihood is so near to the likeliest one's fit as well.
-constexpr double kAboutAsLikely = 6;
-
-/// How unlikely it is that the node which is farthest beyond its arc is so far there, as a standard normal deviate.
-double sigmas_beyond_arc(const Nodes& nodes, const RollFilter& filter) {
-  Whiteness beyond;
-  for (const Node& node : nodes.complete()) beyond.add(filter.beyond_arc(node));
-  if (const std::optional<Node> pending = nodes.pending()) beyond.add(filter.beyond_arc(*pending));
-  return beyond.farthest();
-}
-
-}  // namespace
-
-/// Of the points that are about as likely as the best one, that which is least so: a true corner to pivot at is no
-/// likelier than an arc's end.
-double Grid::least_beyond_arc(const Nodes& nodes, const GridPoint& best) const {
-  double least = sigmas_beyond_arc(nodes, best.now);
-  for (const GridPoints& arc : points_) {
-    for (const GridPointer& point : arc) {
-      if (least <= Fit::kMostSigmas) return least;
-      if (PointScorer::is_stale(*point, nodes)) continue;
-      if (point->score.log_likelihood() < best.score.log_likelihood() - kAboutAsLikely) continue;
-      least = std::min(least, sigmas_beyond_arc(nodes, point->now));
-    }
-  }
-  return least;
-}
-
 /// The fit at the likeliest point, and with it what cells are compared by: `best_`, `farthest_`, `best_mass_`.
 void Grid::measure_fit(const Nodes& nodes) {
   const GridPoint* best = &best_point(nodes);
@@ -184,7 +154,6 @@ void Grid::measure_fit(const Nodes& nodes) {
   fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
                          : fit_of(best->now.cost(), freedom, best->now.whiteness());
   fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
-  if (!options_.robust) fit_.row_sigmas = std::max(fit_.row_sigmas, least_beyond_arc(nodes, *best));
   add_trend(trend_, step_between(nodes), fit_);
   fit_.widened *= scorer_.for_large_slip();
   fit_.prior_sigmas = scorer_.prior_sigmas(*best);

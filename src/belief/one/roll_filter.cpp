@@ -104,6 +104,8 @@ struct RollFilter::Equations {
   Eigen::Matrix<double, 3, 2> by_own;           // of a row's length and turn
   Eigen::Vector3d by_w;                         // by the first contact's w, x kept
   Eigen::Matrix3d own_variance;                 // R: of the row on its own
+  double beyond = 0;                            // an end of the arc: SpreadPlace::beyond, and by w
+  double beyond_by_w = 0;
 };
 
 /// A row's equations with s(w) replaced by its line about `w`, which is known to `w_variance`. The true L and theta
@@ -125,6 +127,8 @@ RollFilter::Equations RollFilter::equations_at(double w, const LinearisedAt& abo
   rows.by_errors.block<1, kRolling>(0, 0) = rows.by_own.row(0) * by_rolling(roll, about.errors);
   rows.by_w[0] = end.slope - place_.slope;
   rows.own_variance(0, 0) = end.variance;
+  rows.beyond = end.beyond;
+  rows.beyond_by_w = end.beyond_by_w;
   add_centre(end, w, about, node, rows);
   // From the point of linearisation to the filter's estimate. The centre's x_5 and x_6 enter as they are in add_centre.
   rows.miss += rows.by_errors.leftCols<kRolling>() * (x_ - about.errors).head<kRolling>();
@@ -263,7 +267,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   const Eigen::Vector3d innovation = -rows.miss;
   // d innovation / dw, with the estimate x moving along: dx/dw = `dx_`.
   const Eigen::Vector3d by_w = -rows.by_w - rows.by_errors * dx_;
-  const double squared = innovation.dot(inverse * innovation);
+  const double squared = innovation.dot(inverse * innovation) + square(rows.beyond);
   // Where along the roll the row was taken is not known beforehand, nor that it is more likely where the contact goes
   // slowly: only what the rows share has a volume.
   const Eigen::Matrix<double, 2, 3> of_walk = walk_ * rows.by_errors.leftCols<2>().transpose();
@@ -280,8 +284,8 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   // Kalman's gain. An outlier's weight below 1 scales the step and what it takes off P. The slope of log L is
   // -(innovation, d innovation / dw) in the metric S^-1, the information is the square of the latter.
   const Eigen::Matrix<double, kShared, 3> gain = weight * of_errors * inverse;
-  slope_ += weight * innovation.dot(inverse * by_w);
-  information_ += weight * by_w.dot(inverse * by_w);
+  slope_ += weight * (innovation.dot(inverse * by_w) + rows.beyond * rows.beyond_by_w);
+  information_ += weight * (by_w.dot(inverse * by_w) + square(rows.beyond_by_w));
   x_ += gain * innovation;
   dx_ += gain * by_w;
   p_ -= gain * of_errors.transpose();
@@ -293,16 +297,6 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
 TiltedPlace RollFilter::after(const Row& measured, double further) const {
   const Corrected roll = corrected(measured, x_);
   return arc_->at(w_ + further + roll.turn + tilt_ * roll.length);
-}
-
-/// Beyond an arc's ends s stays, so that the equations let the contact turn on there for nothing, which no finger does:
-/// an open end and a concave corner are no corners to pivot at.
-double RollFilter::beyond_arc(const Node& node) const {
-  if (arc_->loop()) return 0;
-  const Corrected roll = corrected(node, x_);
-  const double w = w_ + roll.turn + tilt_ * roll.length;
-  const double beyond = std::max(arc_->lo() - w, w - arc_->hi());
-  return beyond > 0 ? beyond / std::sqrt(variance_of_roll(roll, {x_, p_}, node.own)) : 0;
 }
 
 /// All that the filter has learned stays true on a fold of the boundary: only w, s and the arc differ.

@@ -73,9 +73,6 @@ class RollFilter {
   double information() const { return information_; }
   /// Of each equation's innovations.
   const std::array<Whiteness, 3>& whiteness() const { return whiteness_; }
-  /// How far a node has the contact beyond the ends of its arc, by all errors as they are known now: in standard
-  /// deviations of that; 0 within.
-  double beyond_arc(const Node& node) const;
   void record_to(Innovations& kept) {
     for (std::size_t k = 0; k < kept.size(); ++k) whiteness_[k].record_to(&kept[k]);
   }

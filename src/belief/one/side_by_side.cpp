@@ -110,8 +110,9 @@ class SideBySide {
     Four s = Four::Zero(), slope = s, bent = s;
     Four rest = s;  // 1 - c m
     Four miss = s, own = s, all = s;
-    Four noise = s;                   // of the row on its own and of what has gathered on the way
-    Four of_length = s, of_turn = s;  // of what has gathered, with the equation
+    Four noise = s;                    // of the row on its own and of what has gathered on the way
+    Four of_length = s, of_turn = s;   // of what has gathered, with the equation
+    Four beyond = s, beyond_by_w = s;  // an end of the arc, see SpreadPlace
   };
 
   // Eigen counts with signed numbers.
@@ -279,6 +280,8 @@ void SideBySide<Errors>::look(std::size_t lane, double w, double variance, doubl
   lines.s[at(lane)] = end.s;
   lines.slope[at(lane)] = end.slope;
   lines.bent[at(lane)] = end.variance;
+  lines.beyond[at(lane)] = end.beyond;
+  lines.beyond_by_w[at(lane)] = end.beyond_by_w;
 }
 
 template <int Errors>
@@ -419,7 +422,7 @@ void SideBySide<Errors>::take_nodes() {
 template <int Errors>
 Four SideBySide<Errors>::trust(const Lines& lines) {
   const Four inverse = 1 / lines.all;
-  const Four squared = lines.miss * lines.miss * inverse;
+  const Four squared = lines.miss * lines.miss * inverse + lines.beyond * lines.beyond;
   Four trust = inverse;
   if (outliers_.share > 0) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -463,8 +466,9 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   // de/dw with the estimate moving along, sign reversed: m0 - m - (1 - c m) g dx/dw + m h dx/dw.
   const Four by_w =
       first_slope_ - lines.slope - lines.rest * rolled.by_lengths(dx_) + lines.slope * rolled.by_turns(dx_);
-  slope_ -= trusted * lines.miss * by_w;
-  information_ += trusted * by_w * by_w;
+  const Four weight = trusted * lines.all;  // below 1 if it may be an outlier
+  slope_ += weight * lines.beyond * lines.beyond_by_w - trusted * lines.miss * by_w;
+  information_ += trusted * by_w * by_w + weight * lines.beyond_by_w * lines.beyond_by_w;
   PerError of_errors;
   for (std::size_t k = 0; k < Errors; ++k) {
     // P H^T with H = (1 - c m) g - m h.
@@ -476,9 +480,8 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   for (std::size_t k = 0; k < Errors; ++k) {
     for (std::size_t j = k; j < Errors; ++j) p_(k, j) -= trusted * of_errors[k] * of_errors[j];
   }
-  // The gain of the filter with G alone divides by S_w. `trusted * all` is the row's weight: below 1 if it may be an
-  // outlier.
-  const Four seen = trusted * lines.all / lines.noise;
+  // The gain of the filter with G alone divides by S_w.
+  const Four seen = weight / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;
   walk01_ -= seen * lines.of_length * lines.of_turn;
   walk11_ -= seen * lines.of_turn * lines.of_turn;
