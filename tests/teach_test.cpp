@@ -283,6 +283,25 @@ TEST(Teach, noise_of_every_row_does_not_become_bends) {
   EXPECT_LT(taught.deviation, 4.6 * 0.005);
 }
 
+TEST(Teach, noise_of_contacts_does_not_become_corners) {
+  const Part ellipse = shape("ellipse");
+  const Noise noise{.contact = 0.012, .angle = 0.005};
+  for (int k = 0; k < test_count(4); ++k) {
+    rollfix::RollPlan plan;
+    plan.distance = 14;
+    plan.rows = 1000;
+    const rollfix::NoisyRoll roll =
+        rollfix::noisy_roll(ellipse, rollfix::disk(0.6), plan, noise, static_cast<std::uint64_t>(k));
+    rollfix::TeachOptions options;
+    options.finger = rollfix::disk(0.6);
+    options.noise = noise;
+    const Taught taught = teach(roll.log, options);
+    const Part part(taught.outline);
+    EXPECT_TRUE(part.corners().empty()) << k;
+    EXPECT_NEAR(part.perimeter() / ellipse.perimeter(), 1, 0.005) << k;
+  }
+}
+
 TEST(Teach, gap_beyond_the_drift_is_never_spread) {
   const Part truth = shape("ellipse,a=2,b=1");
   const Log log = drive(truth, 0, 0.9 * truth.perimeter(), 600);

@@ -1,5 +1,6 @@
 #include "belief/nodes.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -88,6 +89,16 @@ namespace {
 constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
 
+// A rest ends where two groups in a row are off it by more than 3 standard deviations, the same way, or one by as much
+// as no noise is; or where all of them have a trend. As chi-squares of two degrees of freedom, the length's and the
+// turn's.
+constexpr double kTwiceOff = 11.8;
+constexpr double kFarOff = 60;
+constexpr double kTrend = 20;
+// Shorter rests stay as they are; with so few rows chance has little to say. Where nothing has moved yet it has all.
+constexpr std::size_t kShortestRest = 24;
+constexpr std::size_t kShortestWhole = 8;
+
 /// `gather`: what a node takes over of one that is passed over.
 template <class AnyNodes, class Gather>
 AnyNodes evenly(const AnyNodes& nodes, std::size_t most, const Gather& gather) {
@@ -107,6 +118,36 @@ AnyNodes evenly(const AnyNodes& nodes, std::size_t most, const Gather& gather) {
 
 }  // namespace
 
+/// A group alone that is off is noise: as a node of its own it would be evidence for the places that weigh it least.
+bool Rest::goes_on(const JoinedRows& group, const RowCovariance& own) const {
+  if (groups_ == 0) return true;
+  const Eigen::Matrix2d covariance = (Eigen::Matrix2d() << own.length, own.both, own.both, own.turn).finished();
+  const Vec2 here(group.length, group.turn);
+  const Eigen::Matrix2d inverse = covariance.inverse();
+  const auto count = static_cast<double>(groups_);
+  // How far this group is off the others, and whether the last one was so as well.
+  const Vec2 off = here - sum_ / count;
+  const Vec2 last_off = last_ - sum_ / count;
+  const double squared = off.dot(inverse * off) / (1 + 1 / count);
+  if (squared > kFarOff) return false;
+  const bool is_twice = squared > kTwiceOff && last_off.dot(inverse * last_off) > kTwiceOff;
+  if (is_twice && last_off.dot(inverse * off) > 0) return false;
+  // With this group: sum of (k - mean of k) y, and of the squares of the former.
+  const Vec2 led = by_index_ + count * here - 0.5 * count * (sum_ + here);
+  const double squares = count * (count + 1) * (count + 2) / 12;
+  return led.dot(inverse * led) <= kTrend * squares;
+}
+
+void Rest::add(const JoinedRows& group, const JoinedRows& joined, double travelled) {
+  const Vec2 here(group.length, group.turn);
+  by_index_ += static_cast<double>(groups_) * here;
+  sum_ += here;
+  last_ = here;
+  ++groups_;
+  rows_ = joined;
+  travelled_ += travelled;
+}
+
 /// Blocks fill up, nodes are made of them. Where there are too many, all nodes are made again of longer groups.
 void Nodes::add(const Row& row) {
   beat();
@@ -118,7 +159,7 @@ void Nodes::add(const Row& row) {
     group_ = (group_ + 1) / 2;
     make_again();
   } else if (blocks_.complete().size() % group_ == 0) {
-    complete_node(group(blocks_.complete().size() - group_));
+    complete_node(group(taken_));
   }
   while (are_too_many()) {
     ++group_;
@@ -150,11 +191,41 @@ void Nodes::make_again() {
   walk_ = {};
   travel_.restart();
   seconds_ = 0;
-  for (std::size_t end = group_; end <= blocks_.complete().size(); end += group_) complete_node(group(end - group_));
+  taken_ = 0;
+  begin_rest();
+  while (taken_ + group_ <= blocks_.complete().size()) complete_node(group(taken_));
 }
 
+/// A group that goes on with a rest becomes part of one node; else a node of its own.
 void Nodes::complete_node(const JoinedRows& rows) {
-  const double travelled = travel_.add(mark(rows));
+  const double travelled = travel_.add(mark(taken_, rows));
+  taken_ += group_;
+  if (!joins_rests()) return push(rows, travelled);
+  if (!rest_.goes_on(rows, node_of(rows, travelled).own)) {
+    if (is_held_) push(rest_.rows(), rest_.travelled());
+    begin_rest();
+  }
+  rest_.add(rows, rest_.groups() == 0 ? rows : blocks_.joined(rest_.rows(), rows), travelled);
+  const bool is_rest = rest_.groups() >= (nodes_before_ == 0 ? kShortestWhole : kShortestRest);
+  if (!is_rest) return push(rows, travelled);
+  if (is_held_) return;
+  // Its nodes so far are one.
+  is_held_ = true;
+  nodes_.resize(nodes_before_);
+  walk_ = walk_before_;
+  seconds_ = seconds_before_;
+  ++generation_;
+}
+
+void Nodes::begin_rest() {
+  rest_ = {};
+  is_held_ = false;
+  nodes_before_ = nodes_.size();
+  walk_before_ = walk_;
+  seconds_before_ = seconds_;
+}
+
+void Nodes::push(const JoinedRows& rows, double travelled) {
   nodes_.push_back(node_of(rows, travelled));
   walk_.add(nodes_.back());
   seconds_ = rows.seconds;
@@ -163,17 +234,21 @@ void Nodes::complete_node(const JoinedRows& rows) {
 /// Blocks of the group that is filling, with the rows of the block that is; nothing where there are no rows. It does
 /// not become a mark of the travel: it will change.
 std::optional<Node> Nodes::pending() const {
-  const std::size_t begin = nodes_.size() * group_;
-  const bool has_blocks = begin < blocks_.complete().size();
-  if (!has_blocks && !blocks_.has_open()) return std::nullopt;
-  JoinedRows rows = has_blocks ? group(begin) : blocks_.open();
+  const bool has_blocks = taken_ < blocks_.complete().size();
+  if (!has_blocks && !blocks_.has_open()) {
+    if (is_held_) return node_of(rest_.rows(), rest_.travelled());
+    return std::nullopt;
+  }
+  JoinedRows rows = has_blocks ? group(taken_) : blocks_.open();
   if (has_blocks && blocks_.has_open()) rows = blocks_.joined(rows, blocks_.open());
-  return node_of(rows, travel_.since_last(mark(rows)));
+  const double travelled = travel_.since_last(mark(taken_, rows));
+  if (is_held_) return node_of(blocks_.joined(rest_.rows(), rows), rest_.travelled() + travelled);
+  return node_of(rows, travelled);
 }
 
 /// At the middle of its rows; of increments at the last one, which stands for them.
-Travel::Mark Nodes::mark(const JoinedRows& rows) const {
-  const double before = static_cast<double>(nodes_.size()) * rows_of_node();
+Travel::Mark Nodes::mark(std::size_t blocks, const JoinedRows& rows) const {
+  const double before = static_cast<double>(blocks * blocks_.rows_of_block());
   const double middle = errors_.gathers_rows() ? rows.rows - 1 : 0.5 * (rows.rows - 1);
   return {before + middle, rows.length, rows.own.length};
 }

@@ -67,6 +67,26 @@ struct Node {
   double share_averaged() const { return (rows + 1) * (rows - 1) / (6 * rows * rows); }
 };
 
+/// Neighbouring groups of rows among which no motion shows: each is where the others are, and none of them leads away.
+class Rest {
+ public:
+  /// Whether a group of rows, whose mean has this covariance, goes on with it.
+  bool goes_on(const JoinedRows& group, const RowCovariance& own) const;
+  void add(const JoinedRows& group, const JoinedRows& joined, double travelled);
+
+  std::size_t groups() const { return groups_; }
+  const JoinedRows& rows() const { return rows_; }  // joined
+  double travelled() const { return travelled_; }   // length
+
+ private:
+  std::size_t groups_ = 0;
+  JoinedRows rows_;
+  double travelled_ = 0;
+  Vec2 last_ = Vec2::Zero();      // (length, turn) of the last group
+  Vec2 sum_ = Vec2::Zero();       // of all of them, ...
+  Vec2 by_index_ = Vec2::Zero();  // ... and times their number, from 0
+};
+
 /// A roll's rows as no more than a fixed number of nodes, however many rows there are. Where what gathers on the way is
 /// seen in many of them, there are far fewer, each of as many blocks of rows as it takes: a node's place on the path is
 /// one more unknown, and at places that weigh the same errors otherwise such unknowns leave chance a say that grows
@@ -99,6 +119,10 @@ class Nodes {
   double turn_gathered() const;
 
  private:
+  /// Whether rests are joined: among rows that do not move chance has a say that grows with their number.
+  bool joins_rests() const { return by_walk_ && !errors_.gathers_rows() && errors_.centre_variance() <= 0; }
+  void push(const JoinedRows& rows, double travelled);
+  void begin_rest();
   /// What has gathered, and how well the rows together would know one length and one turn.
   struct Walk {
     double length = 0;
@@ -119,8 +143,8 @@ class Nodes {
   Node node_of(const JoinedRows& rows, double travelled) const;
   /// How far the course leads from their mean, on average: see Node.
   double spread_of(const JoinedRows& rows) const;
-  /// The next node's rows, as a place on the way.
-  Travel::Mark mark(const JoinedRows& rows) const;
+  /// Rows behind so many blocks, as a place on the way.
+  Travel::Mark mark(std::size_t blocks, const JoinedRows& rows) const;
   double rows_of_node() const { return static_cast<double>(group_ * blocks_.rows_of_block()); }
 
   ErrorModel errors_;
@@ -132,9 +156,16 @@ class Nodes {
   RowBlocks blocks_;       // all complete rows, as blocks
   std::size_t group_ = 1;  // blocks of a node
   std::pmr::vector<Node> nodes_;
-  Travel travel_;       // of them
-  Walk walk_;           // likewise
-  double seconds_ = 0;  // at the last one's last row
+  Travel travel_;          // of them
+  Walk walk_;              // likewise
+  double seconds_ = 0;     // at the last one's last row
+  Rest rest_;              // of the last groups
+  bool is_held_ = false;   // it is a node that grows: not among the complete ones
+  std::size_t taken_ = 0;  // blocks, by the nodes and the rest
+  // As they were when it began.
+  std::size_t nodes_before_ = 0;
+  Walk walk_before_;
+  double seconds_before_ = 0;
 };
 
 /// Some of the nodes, evenly, the first and the last among them.

@@ -46,6 +46,11 @@ std::vector<Reading> readings_of(const Log& log, const TeachOptions& options) {
   return readings;
 }
 
+/// Rows at one place that turn by less than this are a bend seen closely: 6 degrees.
+constexpr double kLeastPivot = 0.1;
+/// Or by less than so many standard deviations of the difference of two rows: noise. With it bends are seen less
+/// closely, so that a share of this is theirs.
+constexpr double kPivotSigmas = 8;
 /// A gap of the turn is more than the fitted curve's own noise when it is so many times a row's.
 constexpr double kSurelyDrift = 1.5;
 /// Of the lap: places nearer together are one.
@@ -156,11 +161,13 @@ TurningFit FeltRoll::how() const {
   return {row + 2 * radius_ * felt_.place_rounding * bend() + kSamePlace, true};
 }
 
-RowErrors FeltRoll::errors() const {
+RowErrors FeltRoll::errors() const { return errors_at(bend()); }
+
+RowErrors FeltRoll::errors_at(double bend) const {
   // An error e of the contact moves the row by e along the part, which turns the tangent by kappa e; of a finger it
   // also turns the normal on the finger, by e / r.
   const double normal = log_.kind == LogKind::contact ? 1 / radius_ : 0;
-  return {std::hypot(noise_.angle, noise_.contact * (bend() + normal)), log_.kind == LogKind::increments};
+  return {std::hypot(noise_.angle, noise_.contact * (bend + normal)), log_.kind == LogKind::increments};
 }
 
 double FeltRoll::unsaid_noise() const {
@@ -209,7 +216,9 @@ void FeltRoll::find_runs() {
   // the contact.
   const double same = std::max({2 * radius_ * felt_.place_rounding, kDeviations * noise_.contact, kSamePlace * rolled});
   try {
-    whole_ = turning_runs(readings_, {same, options_.corner_angle});
+    const double bend = std::abs(readings_.back().turn - readings_.front().turn) / rolled;
+    const double noise = std::numbers::sqrt2 * errors_at(bend).sd;
+    whole_ = turning_runs(readings_, {same, std::max(kLeastPivot, kPivotSigmas * noise), options_.corner_angle});
   } catch (const InputError& error) {
     refuse(error.what());
   }

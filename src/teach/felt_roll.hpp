@@ -48,6 +48,7 @@ class FeltRoll {
 
  private:
   double bend() const;  // mean curvature of the roll, at least 0
+  RowErrors errors_at(double bend) const;
   void find_runs();
   double seconds_at(double rolled) const;  // from the roll's start, seconds
   double time_of(std::size_t row) const;   // of a reading, in the log's clock

@@ -23,8 +23,6 @@
 namespace rollfix::teaching {
 namespace {
 
-/// Rows at one place that turn by less than this are a bend seen closely, or noise: 6 degrees.
-constexpr double kLeastPivot = 0.1;
 /// Beside a corner that is spread over two steps, the steps turn by less than this share of it.
 constexpr double kQuietShare = 0.25;
 /// A row may be this many limits behind the ones before: noise, and not a way back.
@@ -39,10 +37,11 @@ struct Stop {
   bool is_pivot = false;  // Theta changes here while s does not: a corner
 };
 
-/// Rows whose places differ by no more than `limit` from the first of them, made one stop each. `readings`: in the
-/// direction of growing length. Throws InputError when a length falls behind the farthest one by more than kMostBack
-/// limits.
-std::vector<Stop> stops_of(const std::vector<Reading>& readings, double limit) {
+/// Rows whose places differ by no more than `limits.length` from the first of them, made one stop each. `readings`: in
+/// the direction of growing length. Throws InputError when a length falls behind the farthest one by more than
+/// kMostBack limits.
+std::vector<Stop> stops_of(const std::vector<Reading>& readings, const PivotLimits& limits) {
+  const double limit = limits.length;
   std::vector<Stop> stops;
   // Invariant: each turn of the outer loop takes all rows of one stop, so that k grows by at least 1.
   double farthest = readings.front().length[0];
@@ -64,7 +63,7 @@ std::vector<Stop> stops_of(const std::vector<Reading>& readings, double limit) {
     // Means: within a stop the order of the rows says nothing about the place.
     stop.s /= static_cast<double>(count);
     stop.mean /= static_cast<double>(count);
-    stop.is_pivot = count > 1 && std::abs(stop.last - stop.first) >= kLeastPivot;
+    stop.is_pivot = count > 1 && std::abs(stop.last - stop.first) >= limits.turn;
     // Means that noise has swapped: the places of stops have to rise strictly.
     if (!stops.empty() && !(stop.s > stops.back().s)) continue;
     stops.push_back(stop);
@@ -207,7 +206,7 @@ void add_spans(TurningPath& path, double s, TurningSpan::Cubic cubic, double wid
 }  // namespace
 
 TurningRuns turning_runs(const std::vector<Reading>& readings, const PivotLimits& limits) {
-  std::vector<Stop> stops = with_whole_pivots(stops_of(readings, limits.length), limits.length);
+  std::vector<Stop> stops = with_whole_pivots(stops_of(readings, limits), limits.length);
   const bool all_in_pivots = std::all_of(stops.begin(), stops.end(), [](const Stop& stop) { return stop.is_pivot; });
   if (stops.size() < 2 || (all_in_pivots && stops.size() < 3)) {
     throw InputError(fmt::format("expected a roll around a part, found {} different place{}", stops.size(),

@@ -31,7 +31,8 @@ struct TurningRuns {
 
 /// What tells a corner from a bend.
 struct PivotLimits {
-  double length = 0;        // rows closer together than this are at one place
+  double length = 0;        // rows closer together than this are at one place; ...
+  double turn = 0;          // ... where they turn by this, radians, that is a corner
   double corner_angle = 0;  // radians: a turn of this size between neighbouring rows is a corner
 };
 

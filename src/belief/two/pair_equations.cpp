@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "belief/posterior.hpp"
@@ -133,6 +134,27 @@ double pivot_at(const PairModel& model, std::size_t finger, double s) {
   return model.slipping[finger] != nullptr ? std::max(felt, model.slipping[finger]->at(s).pivot) : felt;
 }
 
+// Where three points stand for a normal distribution, as many standard deviations from the mean.
+constexpr double kSigmaPoint = std::numbers::sqrt3;
+
+/// What a felt normal tells where slip has left the place open by this variance: the line of least squares through
+/// three points, and as a variance what it misses, as TiltedArc::about of one finger. On a flat side the tangent says
+/// nothing of a rounding that the contact may have slipped to.
+Felt felt_over(const FeltTurning& table, double s, double open) {
+  Felt felt = table.at(s);
+  const double reach = kSigmaPoint * std::sqrt(std::max(0.0, open));
+  if (!(reach > 0)) return felt;
+  const Felt below = table.at(s - reach);
+  const Felt above = table.at(s + reach);
+  const double bend = below.angle - 2 * felt.angle + above.angle;
+  const double own =
+      (below.variance - below.pivot + 4 * (felt.variance - felt.pivot) + above.variance - above.pivot) / 6;
+  felt.angle += bend / 6;
+  felt.slope = 0.5 * (above.angle - below.angle) / reach;
+  felt.variance = own + bend * bend / 18 + felt.pivot;
+  return felt;
+}
+
 }  // namespace
 
 /// Theta = w - c s and dTheta/dw = 1 - c m at both first contacts; in a corner 1.
@@ -178,7 +200,7 @@ PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at,
 /// whole turns; without it f is the change since the first contacts: eqs. (8) and (9).
 template <int N>
 PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
-                               const Alike& alike) {
+                               const PairSharedCovariance* open, const Alike& alike) {
   const PairErrors& errors = *model.errors;
   PairEquations<N> rows;
   std::array<ContactThen, 2> contacts;
@@ -193,7 +215,11 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     const double per_scale = 1 / (1 + x[2 + i]);
     const double length = (node.length[finger] + x[i]) * per_scale;
     const double s = at.place[finger].s + length;
-    const Felt felt = model.felt[finger]->at(s);
+    // Of the place, by offset and scale: (1, -L) P (1, -L)^T, over (1 + eps)^2.
+    const double open_place = open == nullptr ? 0
+                                              : square(per_scale) * ((*open)(i, i) - 2 * length * (*open)(i, 2 + i) +
+                                                                     square(length) * (*open)(2 + i, 2 + i));
+    const Felt felt = felt_over(*model.felt[finger], s, open_place);
     contacts[finger] = {s,
                         felt.angle,
                         felt.slope,
@@ -281,8 +307,8 @@ std::vector<Alike> pivots_of(const PairModel& model, const StartPlaces& at, cons
 template PairEquations<1> facing_equations(const PairModel&, const StartPlaces&, const PairNode&, const PairShared&);
 template PairEquations<3> facing_equations(const PairModel&, const StartPlaces&, const PairNode&, const PairShared&);
 template PairEquations<1> row_equations(const PairModel&, const StartPlaces&, const PairNode&, const PairShared&,
-                                        const Alike&);
+                                        const PairSharedCovariance*, const Alike&);
 template PairEquations<3> row_equations(const PairModel&, const StartPlaces&, const PairNode&, const PairShared&,
-                                        const Alike&);
+                                        const PairSharedCovariance*, const Alike&);
 
 }  // namespace rollfix::belief

@@ -93,8 +93,9 @@ class PairPass {
   template <int N>
   void absorb(const PairNode& node, const Alike& alike) {
     const PairShared about = linearised_about();
+    const PairSharedCovariance* const open = model_.errors->drifts() ? &score_.covariance : nullptr;
     const PairEquations<N> rows = node.is_facing ? facing_equations<N>(model_, at_, node, about)
-                                                 : row_equations<N>(model_, at_, node, about, alike);
+                                                 : row_equations<N>(model_, at_, node, about, open, alike);
     // P H^T, S^-1 and the innovation at the filter's estimate; its derivative by w with x moving along.
     const Eigen::Matrix<double, 5, N> of_errors = score_.covariance * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> own = rows.variance;

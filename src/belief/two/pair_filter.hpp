@@ -162,10 +162,11 @@ template <int N>
 PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at, const PairNode& node,
                                   const PairShared& x);
 
-/// What a later row says. N = 3: with the fingers' centres.
+/// What a later row says. N = 3: with the fingers' centres. `open`: of x, as far as it is known, where slip leaves the
+/// places open; nullptr: linearised at x itself.
 template <int N>
 PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
-                               const Alike& alike);
+                               const PairSharedCovariance* open, const Alike& alike);
 
 /// A finger that may be at one corner in several nodes in a row has pivoted there by one unknown angle, and they are
 /// off alike, by their c_k times it. For each of them: what the others' c come to beside its own, S / c_k with S = sum
