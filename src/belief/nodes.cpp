@@ -248,7 +248,7 @@ std::optional<Node> Nodes::pending() const {
 
 /// At the middle of its rows; of increments at the last one, which stands for them.
 Travel::Mark Nodes::mark(std::size_t blocks, const JoinedRows& rows) const {
-  const double before = static_cast<double>(blocks * blocks_.rows_of_block());
+  const auto before = static_cast<double>(blocks * blocks_.rows_of_block());
   const double middle = errors_.gathers_rows() ? rows.rows - 1 : 0.5 * (rows.rows - 1);
   return {before + middle, rows.length, rows.own.length};
 }

@@ -37,8 +37,6 @@ constexpr double kLeastSlopeShare = 0.5;
 constexpr int kMostHalvings = 24;
 // Equal steps of w for each cell, so that few cells begin within one.
 constexpr std::size_t kBucketsPerCell = 2;
-// Where three points stand for a normal distribution, as many standard deviations from the mean.
-constexpr double kSigmaPoint = std::numbers::sqrt3;
 // So many standard deviations beyond an arc's end are a contact's that rests there, with its noise.
 constexpr double kOfNoise = 4;
 // Slopes that differ by more than this share of the larger one make a kink.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "rollfix/curve.hpp"
@@ -9,6 +10,10 @@
 #include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
+
+/// Where three points stand for a normal distribution, as many standard deviations from the mean: with the weights 1/6,
+/// 2/3, 1/6.
+inline constexpr double kSigmaPoint = std::numbers::sqrt3;
 
 /// Hermite's: from 0 at x = 0, with the slope a there.
 struct HermiteCubic {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "belief/posterior.hpp"
@@ -133,9 +132,6 @@ double pivot_at(const PairModel& model, std::size_t finger, double s) {
   const double felt = model.felt[finger]->at(s).pivot;
   return model.slipping[finger] != nullptr ? std::max(felt, model.slipping[finger]->at(s).pivot) : felt;
 }
-
-// Where three points stand for a normal distribution, as many standard deviations from the mean.
-constexpr double kSigmaPoint = std::numbers::sqrt3;
 
 /// What a felt normal tells where slip has left the place open by this variance: the line of least squares through
 /// three points, and as a variance what it misses, as TiltedArc::about of one finger. On a flat side the tangent says
