@@ -50,6 +50,10 @@ struct RowCovariance {
   double turn = 0;
 };
 
+/// Of (length, turn).
+inline Eigen::Matrix2d matrix_of(const RowCovariance& covariance) {
+  return (Eigen::Matrix2d() << covariance.length, covariance.both, covariance.both, covariance.turn).finished();
+}
 inline RowCovariance operator*(double factor, const RowCovariance& covariance) {
   return {factor * covariance.length, factor * covariance.both, factor * covariance.turn};
 }

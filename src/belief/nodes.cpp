@@ -121,9 +121,8 @@ AnyNodes evenly(const AnyNodes& nodes, std::size_t most, const Gather& gather) {
 /// A group alone that is off is noise: as a node of its own it would be evidence for the places that weigh it least.
 bool Rest::goes_on(const JoinedRows& group, const RowCovariance& own) const {
   if (groups_ == 0) return true;
-  const Eigen::Matrix2d covariance = (Eigen::Matrix2d() << own.length, own.both, own.both, own.turn).finished();
   const Vec2 here(group.length, group.turn);
-  const Eigen::Matrix2d inverse = covariance.inverse();
+  const Eigen::Matrix2d inverse = matrix_of(own).inverse();
   const auto count = static_cast<double>(groups_);
   // How far this group is off the others, and whether the last one was so as well.
   const Vec2 off = here - sum_ / count;

@@ -121,7 +121,9 @@ class Nodes {
  private:
   /// Whether rests are joined: among rows that do not move chance has a say that grows with their number.
   bool joins_rests() const { return by_walk_ && !errors_.gathers_rows() && errors_.centre_variance() <= 0; }
+  /// One more complete node.
   void push(const JoinedRows& rows, double travelled);
+  /// None of the groups so far is part of it.
   void begin_rest();
   /// What has gathered, and how well the rows together would know one length and one turn.
   struct Walk {

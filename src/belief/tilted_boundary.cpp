@@ -111,14 +111,8 @@ SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
     }
   }
   // Three points stand for the distribution: weights 1/6, 2/3, 1/6 serve a normal one as well as an even one.
-  const double below = at(w - reach).s;
-  const double middle = at(w).s;
-  const double above = at(w + reach).s;
-  const double mean = (below + 4 * middle + above) / 6;
-  const double half = 0.5 * (above - below);
-  const double bend = below - 2 * middle + above;
-  // Of the three about their mean, less what the straight line explains.
-  SpreadPlace place{mean, reach > 0 ? half / reach : 0, bend * bend / 18};
+  const SigmaLine line = SigmaLine::through(at(w - reach).s, at(w).s, at(w + reach).s, reach);
+  SpreadPlace place{line.mean, line.slope, line.variance};
   const double past = loop_ ? 0 : std::max(lo() - w, w - hi_);
   const double sd = std::sqrt(variance + spread);
   if (past > kOfNoise * sd && sd > 0) {

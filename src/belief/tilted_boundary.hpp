@@ -15,6 +15,21 @@ namespace rollfix::belief {
 /// 2/3, 1/6.
 inline constexpr double kSigmaPoint = std::numbers::sqrt3;
 
+/// The line of least squares through three such points, `reach` from the middle one: its value and slope there, and
+/// the variance of what it misses.
+struct SigmaLine {
+  double mean = 0;
+  double slope = 0;
+  double variance = 0;
+
+  static SigmaLine through(double below, double middle, double above, double reach) {
+    const double half = 0.5 * (above - below);
+    const double bend = below - 2 * middle + above;
+    // Of the three about their mean, less what the straight line explains.
+    return {(below + 4 * middle + above) / 6, reach > 0 ? half / reach : 0, bend * bend / 18};
+  }
+};
+
 /// Hermite's: from 0 at x = 0, with the slope a there.
 struct HermiteCubic {
   double a = 0;  // slope at x = 0

@@ -199,7 +199,9 @@ double FeltRoll::unsaid_noise() const {
 }
 
 /// Mean curvature of the roll without its sign, 1 / length.
-double FeltRoll::bend() const { return std::abs(readings_.back().turn - readings_.front().turn) / whole_.length(); }
+double FeltRoll::bend_over(double length) const {
+  return std::abs(readings_.back().turn - readings_.front().turn) / length;
+}
 
 /// Checks the readings and cuts them at the corners. Throws InputError: no length, turns that no part has, all rows at
 /// one place, a roll that goes back.
@@ -216,8 +218,7 @@ void FeltRoll::find_runs() {
   // the contact.
   const double same = std::max({2 * radius_ * felt_.place_rounding, kDeviations * noise_.contact, kSamePlace * rolled});
   try {
-    const double bend = std::abs(readings_.back().turn - readings_.front().turn) / rolled;
-    const double noise = std::numbers::sqrt2 * errors_at(bend).sd;
+    const double noise = std::numbers::sqrt2 * errors_at(bend_over(rolled)).sd;
     whole_ = turning_runs(readings_, {same, std::max(kLeastPivot, kPivotSigmas * noise), options_.corner_angle});
   } catch (const InputError& error) {
     refuse(error.what());

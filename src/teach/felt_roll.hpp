@@ -47,8 +47,9 @@ class FeltRoll {
   double start_direction() const;  // radians
 
  private:
-  double bend() const;  // mean curvature of the roll, at least 0
-  RowErrors errors_at(double bend) const;
+  double bend_over(double length) const;  // mean curvature of a roll of this length, at least 0
+  double bend() const { return bend_over(whole_.length()); }
+  RowErrors errors_at(double bend) const;  // where the part is bent so
   void find_runs();
   double seconds_at(double rolled) const;  // from the roll's start, seconds
   double time_of(std::size_t row) const;   // of a reading, in the log's clock

@@ -271,14 +271,12 @@ std::string advice_of_none(const Problem& question) {
   if (!question.noise && question.measured.is_log()) {
     if (const auto shown = noise_that_shows(*question.measured.log, question.fingers)) {
       return fmt::format(
-          "the rows jitter by more than their digits say, but no noise was stated\n  try {}; slip and a wrong radius "
-          "may "
-          "add to it\n",
+          "the rows jitter by more than their digits say, but no noise was stated\n"
+          "  try {}; slip and a wrong radius may add to it\n",
           noise_option(*shown));
     }
   }
-  return "no place of any part fits the roll: check the finger's radius, the unit and the signs of the columns, and "
-         "the "
+  return "no place of any part fits the roll: check the finger's radius, the unit, the signs of the columns and the "
          "noise; or the part is not in the catalog\n";
 }
 

@@ -32,12 +32,9 @@ Eigen::Matrix2d rotation(double angle) {
 /// A quarter turn counter-clockwise: the derivative of a rotated vector by the angle.
 Vec2 turned_left(const Vec2& vector) { return {-vector.y(), vector.x()}; }
 
-/// As covariance matrices of (length, turn).
+/// As a covariance matrix of (length, turn).
 Eigen::Matrix2d matrix_of(const Gathered& gathered) {
   return Eigen::Vector2d(gathered.length, gathered.turn).asDiagonal();
-}
-Eigen::Matrix2d matrix_of(const RowCovariance& own) {
-  return (Eigen::Matrix2d() << own.length, own.both, own.both, own.turn).finished();
 }
 
 }  // namespace

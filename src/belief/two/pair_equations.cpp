@@ -142,12 +142,12 @@ Felt felt_over(const FeltTurning& table, double s, double open) {
   if (!(reach > 0)) return felt;
   const Felt below = table.at(s - reach);
   const Felt above = table.at(s + reach);
-  const double bend = below.angle - 2 * felt.angle + above.angle;
+  const SigmaLine line = SigmaLine::through(below.angle, felt.angle, above.angle, reach);
   const double own =
       (below.variance - below.pivot + 4 * (felt.variance - felt.pivot) + above.variance - above.pivot) / 6;
-  felt.angle += bend / 6;
-  felt.slope = 0.5 * (above.angle - below.angle) / reach;
-  felt.variance = own + bend * bend / 18 + felt.pivot;
+  felt.angle = line.mean;
+  felt.slope = line.slope;
+  felt.variance = own + line.variance + felt.pivot;
   return felt;
 }
 
