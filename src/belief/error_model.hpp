@@ -185,6 +185,7 @@ class PairErrors {
   PairShared gathered(double rows, const std::array<double, 2>& travelled) const;
   /// They gather anything: then no one value of them serves all rows.
   bool drifts() const;
+  bool gathers_rows() const { return sensor_.gathers_rows(); }
 
   /// Rows say where the tangents point against each other, not only how that has changed since the first.
   bool absolute() const { return absolute_; }

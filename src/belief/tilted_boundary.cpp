@@ -37,6 +37,8 @@ constexpr double kLeastSlopeShare = 0.5;
 constexpr int kMostHalvings = 24;
 // Equal steps of w for each cell, so that few cells begin within one.
 constexpr std::size_t kBucketsPerCell = 2;
+// Newton's steps for the w of a place: its cell's cubic is nearly straight.
+constexpr int kRoundsOfPlace = 2;
 // So many standard deviations beyond an arc's end are a contact's that rests there, with its noise.
 constexpr double kOfNoise = 4;
 // Slopes that differ by more than this share of the larger one make a kink.
@@ -93,6 +95,30 @@ TiltedPlace TiltedArc::at(double w) const {
   if (!loop_ && w <= lo()) return {cells_.front().s, 0};
   if (!loop_ && w >= hi_) return {end_, 0};
   return on(find(w));
+}
+
+/// s grows with w: the last cell that begins at or before s has it, and Newton's steps find where.
+double TiltedArc::w_at(double s) const {
+  double base = s;
+  double shift = 0;
+  if (loop_) {
+    const Wrapped wrapped = wrap(s - cells_.front().s, perimeter_);
+    base = cells_.front().s + wrapped.base;
+    shift = wrapped.winding * (hi_ - lo());
+  }
+  if (base <= cells_.front().s) return lo() + shift;
+  if (!loop_ && base >= end_) return hi_;
+  const auto next =
+      std::upper_bound(cells_.begin(), cells_.end(), base, [](double at, const Cell& cell) { return at < cell.s; });
+  const Cell& cell = *(next - 1);
+  const double width = (next == cells_.end() ? hi_ : next->w) - cell.w;
+  double x = 0.5 * width;
+  for (int round = 0; round < kRoundsOfPlace; ++round) {
+    const double slope = cell.cubic.slope(x);
+    if (!(slope > 0)) break;
+    x = std::clamp(x + (base - cell.s - cell.cubic.at(x)) / slope, 0.0, width);
+  }
+  return cell.w + x + shift;
 }
 
 /// Rows are spread evenly with variance `spread` about a w that is normal with `variance`. Where no kink is within

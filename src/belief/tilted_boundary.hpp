@@ -91,6 +91,9 @@ class TiltedArc {
   /// s and ds/dw at w. On a closed boundary any w; else s stays at the arc's ends beyond them, with slope 0.
   TiltedPlace at(double w) const;
 
+  /// A w at which the contact is at s, unwrapped; of a corner the last one. Beyond the arc's ends: theirs.
+  double w_at(double s) const;
+
   /// s about w, which is known to this variance, on average over rows that are spread with that one.
   SpreadPlace about(double w, double variance, double spread) const;
 

@@ -67,6 +67,7 @@ def judge(answer, truth, outline, count):
     sd = np.array([f["sd"] for f in found])
     interval = np.array([f["interval"] for f in found])  # places x fingers x 2
     middle = interval.mean(axis=2)
+    mean = nearest(mean, middle, period)  # a mean just before the seam may be of an interval just behind it
     # On a part that looks the same m times one place stands for m, both fingers' together.
     share = period / outline.symmetry
     turns = [share * k for k in range(outline.symmetry)]

@@ -78,10 +78,10 @@ struct PairGrain {
   double share = 0;               // of the posterior's mass
 };
 
-/// A little of the density: a square of a region's own grid.
+/// A little of the density: a square of a region's own grid, or a rectangle where it was halved.
 struct PairLeaf {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // in the region's coordinates
-  double size = 1;
+  Eigen::Vector2d size = Eigen::Vector2d::Ones();    // of its sides, likewise
   PairStart start;
   PairScore score;
   double log_density = 0;  // by (w_a, w_b) with the prior on the boundary, up to a constant

@@ -1,5 +1,6 @@
 #include "belief/two/pair_filter.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,10 @@
 //                   `covariance`
 //   f, H, df/dw     a row's equations: `PairEquations::f`, `by_errors`, `by_start`
 //   R, G            `variance` of the row on its own; `walk_`, of x, what has gathered
-//   Y               what a felt normal tells of Theta near a corner, with its mean and variance: FeltTurning
 // Follows docs/two_fingers.md, "The errors", and eqs. (7) to (9) of the paper (Jia, IROS 2001), with the facing where
 // it is known. -2 log L = f^T S^-1 f + log(det S / det S_w) as for one finger: docs/belief.md.
 // Idea: a Kalman filter over the rows gives the likelihood of one pair (s, t). It is run again about the errors that
-// came out until they settle (Gauss-Newton); errors that walk are linearised as it goes.
+// came out until they settle (Gauss-Newton); errors that walk are smoothed, and the second pass is about those.
 namespace rollfix::belief {
 
 namespace {
@@ -31,6 +31,8 @@ constexpr Eigen::Index kScales = 2;
 // A step of w by which the pose's change is taken, radians.
 constexpr double kPoseStep = 1e-5;
 constexpr double kTwoPi = 2 * std::numbers::pi;
+// A covariance's diagonal is taken as this share larger before it is inverted.
+constexpr double kRegular = 1e-12;
 
 /// Sums logarithms as one of a product, taken now and then.
 class LogSum {
@@ -49,12 +51,35 @@ class LogSum {
   double sum_ = 0;
 };
 
+/// The shared errors at a node, and what is open of them.
+struct SharedThen {
+  PairShared errors;
+  PairSharedCovariance covariance;
+};
+
+/// By all nodes, from what a filter found by those so far: the smoother of Rauch, Tung and Striebel (1965) of a walk.
+void smooth(const PairModel& model, const std::vector<PairNode>& nodes, std::vector<SharedThen>& found) {
+  for (std::size_t k = nodes.size(); k-- > 1;) {
+    SharedThen& here = found[k - 1];
+    const SharedThen& next = found[k];
+    PairSharedCovariance predicted = here.covariance;
+    predicted.diagonal() += model.errors->gathered(nodes[k].gathered, nodes[k].travelled);
+    // What is known exactly stays so, and the matrix regular.
+    for (Eigen::Index i = 0; i < 5; ++i) predicted(i, i) += predicted(i, i) > 0 ? kRegular * predicted(i, i) : 1;
+    const PairSharedCovariance gain = predicted.llt().solve(here.covariance).transpose();
+    here.errors += gain * (next.errors - here.errors);
+    here.covariance += gain * (next.covariance - predicted) * gain.transpose();
+  }
+}
+
 /// A Kalman filter of the shared errors that goes through the rows.
 class PairPass {
  public:
-  /// Begins with P0. `guess`: x to linearise about. Innovations are kept where the model asks for them.
-  PairPass(const PairModel& model, const StartPlaces& at, const PairShared& guess)
-      : model_(model), at_(at), guess_(guess) {
+  /// Begins with P0. `guess`: x to linearise about; where x walks, `found` at each node, or nullptr: as it goes. What
+  /// it finds goes to `kept`, unless nullptr. Innovations are kept where the model asks for them.
+  PairPass(const PairModel& model, const StartPlaces& at, const PairShared& guess, const std::vector<SharedThen>* found,
+           std::vector<SharedThen>* kept)
+      : model_(model), at_(at), guess_(guess), found_(found), kept_(kept), last_(at.w) {
     score_.covariance = model.errors->start();
     for (const Eigen::Index i : {2, 3}) most_[i] = most_scale(score_.covariance(i, i));
     for (std::size_t k = 0; model.kept != nullptr && k < 3; ++k) {
@@ -64,17 +89,19 @@ class PairPass {
   }
 
   /// Predict: what has gathered since the node before. Then correct, by one equation or three.
-  void take(const PairNode& node, const Alike& alike) {
+  void take(const PairNode& node) {
     if (model_.errors->drifts()) {
       const PairShared gathered = model_.errors->gathered(node.gathered, node.travelled);
       score_.covariance.diagonal() += gathered;
       walk_.diagonal() += gathered;
     }
     if (node.centres && model_.path != nullptr) {
-      absorb<3>(node, alike);
+      absorb<3>(node);
     } else {
-      absorb<1>(node, alike);
+      absorb<1>(node);
     }
+    if (kept_ != nullptr) kept_->push_back({score_.errors, score_.covariance});
+    ++node_;
   }
 
   /// After all nodes; the direct cost gets that of the guess itself, by its prior.
@@ -91,11 +118,14 @@ class PairPass {
  private:
   /// Correct: cost, volume, x, P and their derivatives by w; the steps are those of RollFilter::absorb.
   template <int N>
-  void absorb(const PairNode& node, const Alike& alike) {
+  void absorb(const PairNode& node) {
     const PairShared about = linearised_about();
-    const PairSharedCovariance* const open = model_.errors->drifts() ? &score_.covariance : nullptr;
+    const PairSharedCovariance* const open = !model_.errors->drifts() ? nullptr
+                                             : found_ != nullptr      ? &(*found_)[node_].covariance
+                                                                      : &score_.covariance;
     const PairEquations<N> rows = node.is_facing ? facing_equations<N>(model_, at_, node, about)
-                                                 : row_equations<N>(model_, at_, node, about, open, alike);
+                                                 : row_equations<N>(model_, at_, node, about, open, last_);
+    last_ = rows.w;
     // P H^T, S^-1 and the innovation at the filter's estimate; its derivative by w with x moving along.
     const Eigen::Matrix<double, 5, N> of_errors = score_.covariance * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> own = rows.variance;
@@ -108,14 +138,10 @@ class PairPass {
     // As of one finger only what the rows share has a volume, see RollFilter::absorb.
     const Eigen::Matrix<double, 5, N> of_walk = walk_ * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
-    // Rows of a pivot tell very little, neither by the turn nor by the centres. They cost what other rows cost in the
-    // mean: else a start would be the likelier, the more rows it leaves to pivots. The trace is the share of the row's
-    // variance that is the pivot's, summed over its equations.
-    const double untold = std::min(1.0, node.rows) * (own.inverse() * rows.pivots).trace();
     double weight = 1;
     if (model_.outlier_share > 0) {
-      // An outlier is even over all turns, with centres over a perimeter and all directions as well.
-      const double range = N == 1 ? kTwoPi : kTwoPi * kTwoPi * model_.perimeter();
+      // An outlier is even over a perimeter, with centres over one of distance and all directions as well.
+      const double range = N == 1 ? model_.perimeter() : square(model_.perimeter()) * kTwoPi;
       const double flat = std::pow(kTwoPi, 0.5 * (N - 1));
       const Mixture mixture =
           mixture_of(model_.outlier_share, model_.outlier_share / range, peak_of(density) / flat, squared);
@@ -125,13 +151,11 @@ class PairPass {
       const double usual = peak_of(1 / noise.determinant()) / flat;
       score_.log_volume -= 2 * std::log(mixture.density / usual);
       score_.right_rows += N * weight;
-      score_.right_cost += weight * (squared + untold);
+      score_.right_cost += weight * squared;
     } else {
       score_.cost += squared;
       volume_.add(1 / (density * noise.determinant()));
     }
-    score_.cost += weight * untold;
-    score_.direct_cost += weight * untold;
     add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);
     // With x fixed at the guess: what the row costs by its own variance.
     score_.direct_cost += rows.f.dot(own.inverse() * rows.f);
@@ -159,32 +183,48 @@ class PairPass {
     gathered_.add(noise.determinant() / own.determinant());
   }
 
-  /// The guess; but what walks is where it has got to.
+  /// The guess; but what walks is what was found of this node, or where it has got to.
   PairShared linearised_about() const {
+    if (found_ != nullptr) return (*found_)[node_].errors;
     if (!model_.errors->drifts()) return guess_;
     PairShared about = score_.errors;
-    about.segment<2>(kScales) = guess_.segment<2>(kScales);
+    // A pass that is to be smoothed takes the scales as they were guessed, by all rows.
+    if (kept_ != nullptr) about.segment<2>(kScales) = guess_.segment<2>(kScales);
     return about;
   }
 
   const PairModel& model_;
   const StartPlaces& at_;
   const PairShared& guess_;
+  const std::vector<SharedThen>* found_;
+  std::vector<SharedThen>* kept_;
+  std::size_t node_ = 0;  // of the nodes, the next
   PairScore score_;
   PairSharedCovariance walk_ = PairSharedCovariance::Zero();  // of the errors, from what has gathered alone
   PairShared most_ = PairShared::Zero();
+  std::array<double, 2> last_;  // w of the contacts in the row before
   LogSum volume_;
   LogSum gathered_;
 };
 
-/// One pass through all nodes, about `guess`.
+/// Are there any on which a finger rolls?
+bool has_kinks(const StartPlaces& at) { return !at.arc[0]->kinks().empty() || !at.arc[1]->kinks().empty(); }
+
+/// One pass through all nodes, about `guess`. Errors that walk take two: about what the first one finds as it goes, and
+/// about what it has found of each node by all of them (an iterated extended Kalman smoother).
 PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,
                const PairShared& guess) {
   beat();
-  PairPass through(model, at, guess);
-  const std::vector<Alike> alike = pivots_of(model, at, nodes, guess);
-  for (std::size_t k = 0; k < nodes.size(); ++k) through.take(nodes[k], alike[k]);
-  return through.score();
+  std::vector<SharedThen> found;
+  if (model.errors->drifts() && has_kinks(at)) {
+    found.reserve(nodes.size());
+    PairPass first(model, at, guess, nullptr, &found);
+    for (const PairNode& node : nodes) first.take(node);
+    smooth(model, nodes, found);
+  }
+  PairPass last(model, at, guess, found.empty() ? nullptr : &found, nullptr);
+  for (const PairNode& node : nodes) last.take(node);
+  return last.score();
 }
 
 /// How far the part's pose is from the prior's, in its deviations, for these first contacts.
@@ -223,15 +263,6 @@ void add_pose_prior(const PairModel& model, const PairStart& start, const StartP
   score.information += by_start.transpose() * by_start;
 }
 
-/// Of what does not walk.
-bool has_same_scales(const PairScore& score, const PairShared& guess) {
-  for (const Eigen::Index i : {kScales, kScales + 1}) {
-    const double off = score.errors[i] - guess[i];
-    if (off * off > kSameErrors * kSameErrors * score.covariance(i, i)) return false;
-  }
-  return true;
-}
-
 /// Each shared error came out within kSameErrors of its standard deviation of where it was taken.
 bool is_about_same(const PairScore& score, const PairShared& guess, const PairErrors& errors) {
   for (Eigen::Index i = 0; i < 5; ++i) {
@@ -250,13 +281,6 @@ PairScore score_of(const PairModel& model, const PairStart& start, const std::ve
   const StartPlaces at = places_of(model, start);
   const PairErrors& errors = *model.errors;
   PairScore score = pass(model, at, nodes, guess);
-  if (errors.drifts()) {
-    PairShared about = guess;
-    for (int k = 1; k < most_passes && !has_same_scales(score, about); ++k) {
-      about = score.errors;
-      score = pass(model, at, nodes, about);
-    }
-  }
   if (!errors.drifts() && most_passes > 1 && !is_about_same(score, guess, errors)) {
     // Errors that do not settle, as about corners: a straight line that fits well is not to be believed. They are worth
     // what they cost as they are, the best of those that were tried.

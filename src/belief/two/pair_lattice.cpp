@@ -32,8 +32,10 @@ constexpr double kNegligiblePair = 12.5;
 constexpr double kFinePairStep = 1.6;
 // The distance's rate of change varies within a square: it is taken as this much larger.
 constexpr double kPairRateSafety = 1.3;
-// Squares are not halved more often than this.
-constexpr int kMostPairHalvings = 8;
+// A whole square is 1 wide: no side is halved below this.
+constexpr double kLeastPairSize = 1.0 / 256;
+// Both sides are halved where the distance changes along the better one by more than this share of the other.
+constexpr double kWorthHalving = 0.5;
 // By Effort. Hypotheses looked at; what is not resolved by then counts as rest.
 constexpr std::array<std::size_t, 3> kMostHypotheses = {60000, 6000, 600};
 // A region of more whole squares than this has them too small, and is begun again with larger ones, ...
@@ -49,7 +51,7 @@ constexpr double kPassingWidth = 2;
 // Passings along a square's sides are none within it.
 constexpr double kInside = 0.9;
 // A square is as wide as the gap between two, or less: halved so often it says well enough how much is on either side.
-constexpr int kPassingHalvings = 3;
+constexpr double kLeastAtPassings = 1.0 / 8;
 // A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
 constexpr double kForetold = 1;
 
@@ -108,8 +110,7 @@ class Spreading {
   /// A square to look into, with a guess of the shared errors x there: linear in w about the square that it came from.
   struct Task {
     Eigen::Vector2d centre;
-    double size;  // of its side
-    int depth;    // halvings so far
+    Eigen::Vector2d size;  // of its sides
     PairShared guess;
     Eigen::Vector2d guess_at;              // w from the origin, of the guess
     Eigen::Matrix<double, 5, 2> by_start;  // dx/dw
@@ -165,13 +166,13 @@ double Spreading::log_prior(const PairStart& start) const {
 }
 
 void Spreading::weigh(const PairRegion& region, PairLeaf& leaf) const {
-  const double step = leaf.size / kGrainsAcross;
+  const Eigen::Vector2d step = leaf.size / kGrainsAcross;
   // Of a grain, in (w_a, w_b).
-  const double area = step * step * std::abs(region.frame.determinant());
+  const double area = step.prod() * std::abs(region.frame.determinant());
   const double base = (leaf.score.log_likelihood() - best_) / heat_;
   for (int i = 0; i < kGrainsAcross; ++i) {
     for (int j = 0; j < kGrainsAcross; ++j) {
-      const Eigen::Vector2d off(step * (i - 0.5 * (kGrainsAcross - 1)), step * (j - 0.5 * (kGrainsAcross - 1)));
+      const Eigen::Vector2d off(step[0] * (i - 0.5 * (kGrainsAcross - 1)), step[1] * (j - 0.5 * (kGrainsAcross - 1)));
       const Eigen::Vector2d by = region.frame * (leaf.centre + off);
       if (!is_within(region.origin, by)) continue;
       const Eigen::Vector2d from_centre = region.frame * off;
@@ -210,7 +211,7 @@ bool Spreading::foretells_peaks(const PairRegion& region, const PairLeaf& leaf) 
   return std::all_of(known_.begin(), known_.end(), [&](const Known& peak) {
     const Eigen::Vector2d off = peak.at - leaf.centre;
     // A peak outside of the square.
-    if (off.cwiseAbs().maxCoeff() > 0.5 * leaf.size) return true;
+    if ((off.cwiseAbs() - 0.5 * leaf.size).maxCoeff() > 0) return true;
     const Eigen::Vector2d by = region.frame * off;
     const double foretold =
         leaf.score.log_likelihood() + leaf.score.slope.dot(by) - 0.5 * by.dot(leaf.score.information * by);
@@ -225,7 +226,7 @@ bool Spreading::has_passings(const PairRegion& region, const PairLeaf& leaf) con
     const TiltedPlace place = leaf.start.arc[finger]->at(leaf.start.w[finger]);
     const Eigen::RowVector2d along = region.frame.row(static_cast<Eigen::Index>(finger)) * place.slope;
     // How far the square goes to either side along the boundary, to first order.
-    const double reach = 0.5 * leaf.size * along.lpNorm<1>();
+    const double reach = 0.5 * along.cwiseAbs().dot(leaf.size);
     if (reach > kPassingWidth * model_.passings[finger]->sharpest(place.s, kInside * reach)) return true;
   }
   return false;
@@ -242,40 +243,48 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   const PairShared guess = task.guess + task.by_start * (by - task.guess_at);
   leaf.score = score_of(model_, leaf.start, nodes_, guess, kPasses);
   ++hypotheses_;
-  // No more than this can be in the square: the distance can't fall faster than it changes.
-  // The rate of d by y is at most the root of F's larger eigenvalue; the corners are size / sqrt(2) from the centre.
+  // No more than this can be in the square: the distance can't fall faster than it changes. To a corner it changes by
+  // the root of h^T F h at most, h being half a diagonal.
   const Eigen::Matrix2d information = region.frame.transpose() * leaf.score.information * region.frame;
-  const double trace = information.trace();
-  // Difference of both eigenvalues.
-  const double gap = std::hypot(information(0, 0) - information(1, 1), 2 * information(0, 1));
-  const double rate = std::sqrt(std::max(0.0, 0.5 * (trace + gap)));
-  const double reach = kPairRateSafety * rate * task.size * std::sqrt(0.5);
+  const Eigen::Matrix2d across = leaf.size.asDiagonal() * information * leaf.size.asDiagonal();
+  const double to_corner = std::sqrt(std::max(0.0, across.trace() + 2 * std::abs(across(0, 1)))) / 2;
+  const double reach = kPairRateSafety * to_corner;
   const double distance = std::max(0.0, std::sqrt(leaf.score.cost) - reach);
   const double most = -0.5 * (std::min(leaf.score.cost, distance * distance) + leaf.score.log_volume);
   const bool foretells = foretells_peaks(region, leaf);
   if (foretells && (most - best_) / heat_ < -kNegligiblePair) return false;
   // At passings it may change by any amount, which the middle does not see.
-  const bool has_jump = task.depth < kPassingHalvings && !is_negligible(leaf.score) && has_passings(region, leaf);
-  const bool is_fine = foretells && !has_jump && rate * task.size <= kFinePairStep * std::sqrt(heat_);
-  // Quarters, unless the effort or the depth is used up. Then the square is a leaf as it is, and unresolved.
-  if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < limit_) {
+  const bool has_jump =
+      task.size.maxCoeff() > kLeastAtPassings && !is_negligible(leaf.score) && has_passings(region, leaf);
+  // From side to side, by either of the region's coordinates.
+  const Eigen::Vector2d change = across.diagonal().cwiseMax(0).cwiseSqrt();
+  const bool is_even = change.maxCoeff() <= kFinePairStep * std::sqrt(heat_);
+  // Halves, across where it changes most, or quarters; unless the effort or the depth is used up. Then the square is a
+  // leaf as it is, and unresolved.
+  std::array<bool, 2> is_cut{};
+  for (const Eigen::Index i : {0, 1}) {
+    const bool is_worst = !foretells || has_jump || change[i] > kWorthHalving * change.maxCoeff();
+    is_cut[static_cast<std::size_t>(i)] = is_worst && task.size[i] > kLeastPairSize;
+  }
+  const bool is_fine = foretells && !has_jump && is_even;
+  if (!is_fine && (is_cut[0] || is_cut[1]) && hypotheses_ < limit_) {
+    Eigen::Vector2d size = task.size;
+    for (const std::size_t i : {0U, 1U}) size[static_cast<Eigen::Index>(i)] *= is_cut[i] ? 0.5 : 1;
+    const auto part_at = [&](const Eigen::Vector2d& centre) {
+      return Task{centre, size, leaf.score.errors, by, leaf.score.errors_by_start};
+    };
     bool matters = false;
-    for (const double x : {-0.25, 0.25}) {
-      for (const double y : {-0.25, 0.25}) {
-        const Task quarter{task.centre + task.size * Eigen::Vector2d(x, y),
-                           0.5 * task.size,
-                           task.depth + 1,
-                           leaf.score.errors,
-                           by,
-                           leaf.score.errors_by_start};
-        matters = look_into(region, quarter, leaves) || matters;
+    for (const int x : {-1, 1}) {
+      if (x > 0 && !is_cut[0]) break;
+      for (const int y : {-1, 1}) {
+        if (y > 0 && !is_cut[1]) break;
+        const Eigen::Vector2d off(is_cut[0] ? 0.5 * x * size[0] : 0, is_cut[1] ? 0.5 * y * size[1] : 0);
+        matters = look_into(region, part_at(task.centre + off), leaves) || matters;
       }
     }
     if (matters || is_negligible(leaf.score)) return matters;
-    // A peak so sharp that no quarter's middle is on it.
-    return look_into(region,
-                     {task.centre, 0.5 * task.size, task.depth + 1, leaf.score.errors, by, leaf.score.errors_by_start},
-                     leaves);
+    // A peak so sharp that no part's middle is on it.
+    return look_into(region, part_at(task.centre), leaves);
   }
   leaf.log_density = (leaf.score.log_likelihood() - best_) / heat_ + log_prior(leaf.start);
   weigh(region, leaf);
@@ -291,8 +300,8 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   // Breadth first: squares in the order of their distance from the peak. `seen` has every square that was considered.
   std::deque<Task> tasks;
   std::unordered_map<std::uint64_t, bool> seen;
-  tasks.push_back(
-      {Eigen::Vector2d::Zero(), 1, 0, peak.score.errors, Eigen::Vector2d::Zero(), peak.score.errors_by_start});
+  tasks.push_back({Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones(), peak.score.errors, Eigen::Vector2d::Zero(),
+                   peak.score.errors_by_start});
   seen[square_key(tasks.back().centre)] = true;
   while (!tasks.empty()) {
     const Task task = tasks.front();
@@ -324,7 +333,7 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
         }
       }
       const PairStart start = moved(region.origin, by);
-      if (!is_taken(start)) tasks.push_back({next, 1, 0, score.errors, at, score.errors_by_start});
+      if (!is_taken(start)) tasks.push_back({next, Eigen::Vector2d::Ones(), score.errors, at, score.errors_by_start});
     }
   }
   return true;
@@ -396,7 +405,7 @@ std::size_t PairRegion::leaf_at(const Eigen::Vector2d& y) const {
   const auto found = leaves_of.find(square_key(y));
   if (found == leaves_of.end()) return leaves.size();
   for (const std::size_t k : found->second) {
-    if ((leaves[k].centre - y).cwiseAbs().maxCoeff() <= 0.5 * leaves[k].size) return k;
+    if (((leaves[k].centre - y).cwiseAbs() - 0.5 * leaves[k].size).maxCoeff() <= 0) return k;
   }
   return leaves.size();
 }

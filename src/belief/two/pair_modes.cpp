@@ -22,19 +22,25 @@ namespace rollfix::belief {
 
 namespace {
 
-/// Leaves of one region beside this one: four points just across each side find them, down to a quarter of its size.
-/// A leaf may be found several times.
-std::vector<std::size_t> beside(const PairRegion& region, const PairLeaf& leaf) {
-  std::vector<std::size_t> found;
-  for (const double along : {-0.375, -0.125, 0.125, 0.375}) {
-    for (const double side : {-0.501, 0.501}) {
-      for (const Eigen::Vector2d& off : {Eigen::Vector2d(side, along), Eigen::Vector2d(along, side)}) {
-        const std::size_t k = region.leaf_at(leaf.centre + leaf.size * off);
-        if (k < region.leaves.size()) found.push_back(k);
+/// For each leaf of a region those beside it: four points just across each side find them, and a smaller one finds the
+/// larger one on whose side it is. One may be there several times.
+std::vector<std::vector<std::size_t>> neighbours_in(const PairRegion& region) {
+  const std::size_t count = region.leaves.size();
+  std::vector<std::vector<std::size_t>> neighbours(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const PairLeaf& leaf = region.leaves[k];
+    for (const double along : {-0.375, -0.125, 0.125, 0.375}) {
+      for (const double side : {-0.501, 0.501}) {
+        for (const Eigen::Vector2d& off : {Eigen::Vector2d(side, along), Eigen::Vector2d(along, side)}) {
+          const std::size_t other = region.leaf_at(leaf.centre + leaf.size.cwiseProduct(off));
+          if (other == count) continue;
+          neighbours[k].push_back(other);
+          neighbours[other].push_back(k);
+        }
       }
     }
   }
-  return found;
+  return neighbours;
 }
 
 /// For each leaf of a region the leaf at the top of its hill.
@@ -46,6 +52,7 @@ std::vector<std::size_t> tops_of(const PairRegion& region) {
   const auto height = [&](std::size_t k) { return region.leaves[k].log_density; };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
   // Union-find: `up` leads to the top; `count` means that the leaf is still under water.
+  const std::vector<std::vector<std::size_t>> neighbours = neighbours_in(region);
   std::vector<std::size_t> up(count, count);
   const auto top = [&](std::size_t k) {
     while (up[k] != k) {
@@ -59,16 +66,15 @@ std::vector<std::size_t> tops_of(const PairRegion& region) {
   for (const std::size_t k : order) {
     up[k] = k;
     std::size_t highest = k;
-    const std::vector<std::size_t> neighbours = beside(region, region.leaves[k]);
     // The highest hill that this leaf touches, if there is one: the leaf joins it.
-    for (const std::size_t other : neighbours) {
+    for (const std::size_t other : neighbours[k]) {
       if (up[other] == count) continue;
       if (highest == k || height(top(other)) > height(highest)) highest = top(other);
     }
     // A new peak.
     if (highest == k) continue;
     up[k] = highest;
-    for (const std::size_t other : neighbours) {
+    for (const std::size_t other : neighbours[k]) {
       if (up[other] == count || other == k) continue;
       const std::size_t peak = top(other);
       // Here two hills meet, at this height: the lower one joins where its peak is less than kValley above.
@@ -244,15 +250,16 @@ class PairHill {
   /// One step of Newton's method, no further than the leaf goes.
   Eigen::Vector2d step_to_peak(const PairLeaf& leaf) const {
     const Eigen::Matrix2d information = region_->frame.transpose() * leaf.score.information * region_->frame;
-    // In the region's coordinates, in which the leaf is a square.
+    // In the region's coordinates, in which the leaf is a rectangle.
     const Eigen::Vector2d slope = region_->frame.transpose() * leaf.score.slope;
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
     // Where a direction is not known at all, the matrix stays regular.
     const Eigen::Matrix2d ridged = information + 1e-9 * (information.trace() + 1e-300) * Eigen::Matrix2d::Identity();
     step = ridged.inverse() * slope;
-    const double most = step.cwiseAbs().maxCoeff();
+    // In half sides.
+    const double most = (2 * step.cwiseAbs()).cwiseQuotient(leaf.size).maxCoeff();
     if (!std::isfinite(most)) return Eigen::Vector2d::Zero();
-    if (most > 0.5 * leaf.size) step *= 0.5 * leaf.size / most;
+    if (most > 1) step /= most;
     return region_->frame * step;
   }
 
@@ -267,8 +274,8 @@ class PairHill {
     std::array<double, 2> half{};
     for (const std::size_t finger : {0U, 1U}) {
       // A grain's half width in w, then along the boundary.
-      const double along = region_->frame.row(static_cast<Eigen::Index>(finger)).cwiseAbs().sum();
-      half[finger] = 0.5 * leaf.size / kGrainsAcross * along * leaf.start.arc[finger]->at(leaf.start.w[finger]).slope;
+      const double along = region_->frame.row(static_cast<Eigen::Index>(finger)).cwiseAbs().dot(leaf.size);
+      half[finger] = 0.5 / kGrainsAcross * along * leaf.start.arc[finger]->at(leaf.start.w[finger]).slope;
     }
     return half;
   }

@@ -25,8 +25,6 @@ namespace rollfix::belief {
 
 namespace {
 
-// The tangent where a contact is felt is known to this share of the angles' noise.
-constexpr double kShareOfAngle = 1e-3;
 // Where errors of kFarthest leave nothing good, larger ones are let pass, up to this many standard deviations.
 constexpr double kFarthestOfAll = 40;
 constexpr double kWider = 3;
@@ -181,26 +179,9 @@ class TwoFingersPosterior : public Posterior {
     Question(const TwoFingersPosterior& of, const PairErrors& errors)
         : nodes(of.rows_.nodes(of.contacts_.facing, of.looked_at_centres(errors), errors)) {
       let_part_be_off(nodes, errors);
-      const double accuracy = kShareOfAngle * std::sqrt(errors.turn_variance());
-      const PerFinger<double>& curvature = of.contacts_.finger_curvature;
-      // Fingers of one curvature share their tables.
-      const bool alike = curvature[0] == curvature[1];
-      for (const std::size_t finger : {0U, 1U}) {
-        if (finger == 1 && alike) break;
-        felt[finger].emplace(of.part_.turning(), errors.contact_sd(), of.corner(finger), errors.normal_turn(finger),
-                             accuracy);
-        // Where a corner is as near as the finger may have slipped, it may be at it: see pivot_at.
-        if (errors.drifts() && felt[finger]->has_corners()) {
-          slipping[finger].emplace(of.part_.turning(), std::hypot(errors.contact_sd(), of.most_slipped()),
-                                   of.corner(finger), errors.normal_turn(finger), accuracy);
-        }
-      }
       model.errors = &errors;
       for (const PairNode& node : nodes) model.gathered += errors.gathered(node.gathered, node.travelled);
       model.boundary = {&of.boundary_[0], &of.boundary_[1]};
-      model.felt = {&*felt[0], alike ? &*felt[0] : &*felt[1]};
-      const auto at_or_none = [](const std::optional<FeltTurning>& one) { return one ? &*one : nullptr; };
-      model.slipping = {at_or_none(slipping[0]), at_or_none(alike ? slipping[0] : slipping[1])};
       model.outlier_share = of.options_.robust ? kOutlierShare : 0;
       model.prior = of.options_.prior;
       model.part = &of.part_;
@@ -218,18 +199,9 @@ class TwoFingersPosterior : public Posterior {
     Question& operator=(const Question&) = delete;
 
     std::vector<PairNode> nodes;  // all rows as few
-    std::array<std::optional<FeltTurning>, 2> felt;
-    std::array<std::optional<FeltTurning>, 2> slipping;
     std::array<std::optional<Passings>, 2> passings;
     PairModel model;  // points to the tables above
   };
-
-  /// Standard deviation of what a finger may have slipped over the longer one of both rolls; length.
-  double most_slipped() const {
-    if (rows_.empty()) return 0;
-    const double rolled = std::max(std::abs(rows_.last().length[0]), std::abs(rows_.last().length[1]));
-    return std::sqrt(errors_.gathered(0, {rolled, rolled})[0]);
-  }
 
   /// The peaks of the likelihood with all rows, and how well the best one fits.
   Peaks peaks_of(const Question& question) const;
