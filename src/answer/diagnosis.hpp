@@ -64,6 +64,8 @@ class LengthScales {
  private:
   std::vector<double> all(const Whose& whose) const;
   bool may_be_of_two(double scale) const;
+  /// Does a row say anything of the normal with such fingers?
+  bool tells_normals(const Whose& whose, double scale) const;
   bool may_be(double scale) const;
   std::optional<Belief> belief_with(const Whose& whose, double scale, std::size_t rows) const;
 

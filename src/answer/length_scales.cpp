@@ -31,6 +31,10 @@ constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0
 // ... with which the longest roll is between these, in perimeters: shorter ones say nothing, longer ones nobody rolls.
 constexpr double kLeastRollOfTwo = 0.01;
 constexpr double kMostRollOfTwo = 8;
+// A disk that would be less than half as large, and so small that a contact's error turns its normal by more than this,
+// tells nothing and fits everywhere; radians.
+constexpr double kMostNormalNoise = 0.15;
+constexpr double kMuchSmaller = 0.5;
 // Beyond what Theta's own range allows, radians: noise.
 constexpr double kTurnBeyond = 0.5;
 constexpr double kTurnSigmas = 6;
@@ -110,13 +114,23 @@ std::vector<double> LengthScales::all(const Whose& whose) const {
     // One finger's unit is the other's as well.
     const auto end = whose ? kScalesOfTwo.begin() + kRadiiOfTwo : kScalesOfTwo.end();
     std::copy_if(kScalesOfTwo.begin(), end, std::back_inserter(scales),
-                 [&](double scale) { return may_be_of_two(scale); });
+                 [&](double scale) { return may_be_of_two(scale) && tells_normals(whose, scale); });
     return scales;
   }
   for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {
-    if (may_be(scale)) scales.push_back(scale);
+    if (may_be(scale) && tells_normals(whose, scale)) scales.push_back(scale);
   }
   return scales;
+}
+
+bool LengthScales::tells_normals(const Whose& whose, double scale) const {
+  if (scale >= kMuchSmaller) return true;
+  for (std::size_t k = 0; k < problem_.fingers.size(); ++k) {
+    const Finger& finger = problem_.fingers[k];
+    if (!is_of(whose, k) || !finger.is_disk() || !problem_.noise) continue;
+    if (problem_.noise->contact > kMostNormalNoise * scale * finger.disk()->radius) return false;
+  }
+  return true;
 }
 
 /// The longest roll must be of a plausible number of laps.
@@ -174,6 +188,7 @@ std::optional<SettledScale> LengthScales::settled(const Whose& whose, double sca
     scale *= by;
     // What is far off everywhere asks for any scale.
     if (!(scale >= kLeastScale / kScaleStep && scale <= kMostScale * kScaleStep)) return std::nullopt;
+    if (!tells_normals(whose, scale)) return std::nullopt;
     if (std::abs(by - 1) < kSmallStep * sd) break;
   }
   return SettledScale{scale, scale * fit.length_scale_sd[whose.value_or(0)], *std::move(belief)};
