@@ -7,11 +7,12 @@
 
 // Notation, as in docs/two_fingers.md, "The errors":
 //   w_a, w_b        tilted turnings w = Theta + c s of both contacts; [0] is finger a, [1] finger b
-//   S_a, S_b        where the contacts were felt: the first contacts and a row's lengths less the shared errors,
-//   `felt_at` D               w_b - w_a, as the row's turn and S_a, S_b tell it: `apart` m               ds/dw = 1 /
-//   (kappa + c); 0 in a corner e_a, e_b        s(w_a) - S_a and s(w_a + D) - S_b: how far the contacts are from where
-//   they were felt V_a, V_b        their variances: (1 - (c - k) m)^2 of the row's own error, (1 - c m)^2 of what is
-//   open of S k               1 / r where the place turns the measured normal, else 0: `normal_turn`
+//   S_a, S_b        where the contacts were felt, less the shared errors: `felt_at`
+//   D               w_b - w_a, as the row's turn and S_a, S_b tell it: `apart`
+//   m               ds/dw = 1 / (kappa + c); 0 in a corner
+//   e_a, e_b        s(w_a) - S_a and s(w_a + D) - S_b: how far contacts are from where they were felt
+//   V_a, V_b        their variances: (1 - (c - k) m)^2 of the row's own error, (1 - c m)^2 of what is open
+//   k               1 / r where the place turns the measured normal, else 0: `normal_turn`
 // Idea: how far the part has turned by a row is not known, so that w_a is the row's own unknown. Both e grow with it:
 // it is between their roots. On a flat side c m = 1: what is open of S moves w as much, and e not at all.
 namespace rollfix::belief {
