@@ -4,7 +4,7 @@
 
 #include "cli.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/output/files.hpp"
+#include "rollfix/output/report.hpp"
 
 namespace cli_whole_files_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "catalog/bounds/profile.hpp"
+#include "catalog/bounds/bounds.hpp"
 #include "catalogs.hpp"
 #include "random.hpp"
 #include "rollfix/rolling.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "refusal.hpp"
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 
 // Which kinds of noise a problem takes: those that it names, so that a new one is refused until somebody has thought of
 // it.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "refusal.hpp"
-#include "roll/normal_numbers.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
 #include "shapes.hpp"

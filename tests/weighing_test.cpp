@@ -1,5 +1,5 @@
 // What remains of an answer's weights once fingers rule places out, and once what was said of the noise is in doubt.
-#include "answer/weighing.hpp"
+#include "answer/steps.hpp"
 
 #include <gtest/gtest.h>
 

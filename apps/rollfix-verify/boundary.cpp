@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "budget.hpp"
+#include "check.hpp"
 
 // Notation:
 //   s               arc length; u: a curve's parameter; Theta: the tangent's angle, from that at s = 0

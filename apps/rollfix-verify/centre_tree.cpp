@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "budget.hpp"
+#include "check.hpp"
 #include "document.hpp"
 
 // Notation:

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "budget.hpp"
 #include "document.hpp"
 
 // From the text of a certificate to the verdict's text.

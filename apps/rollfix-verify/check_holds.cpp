@@ -8,7 +8,6 @@
 
 #include "check.hpp"
 #include "document.hpp"
-#include "held_document.hpp"
 #include "hold_search.hpp"
 
 // Notation, as in hold_search.cpp:

@@ -13,7 +13,6 @@
 #include "check.hpp"
 #include "document.hpp"
 #include "pose_search.hpp"
-#include "roll_starts.hpp"
 
 // Notation:
 //   X, phi          a pose of the part, which has the part's point c at X + R(phi) c

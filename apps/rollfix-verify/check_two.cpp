@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "budget.hpp"
 #include "check.hpp"
 #include "document.hpp"
 #include "pair_boxes.hpp"

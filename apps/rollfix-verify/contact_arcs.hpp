@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "centre_tree.hpp"
-#include "held_document.hpp"
+#include "document.hpp"
 
 namespace rollfix_verify {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "budget.hpp"
+#include "check.hpp"
 
 // Notation:
 //   [lo, hi]        a stretch of first contacts: Stretch

@@ -1,4 +1,4 @@
-#include "held_document.hpp"
+#include "document.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <string>
 
 #include "centre_tree.hpp"
-#include "document.hpp"
 
 // What a certificate of a hold states of fingers, wheels and instants, read; and what of it can't be meant, or is so
 // exact that doubles would decide.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "budget.hpp"
 #include "centre_tree.hpp"
+#include "check.hpp"
 #include "document.hpp"
 
 // Notation, of an instant at which the part lies at X, phi:

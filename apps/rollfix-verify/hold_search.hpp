@@ -7,7 +7,7 @@
 
 #include "centre_tree.hpp"
 #include "contact_arcs.hpp"
-#include "held_document.hpp"
+#include "document.hpp"
 
 namespace rollfix_verify {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "budget.hpp"
+#include "check.hpp"
 
 // Notation:
 //   w               an equation's weights of the contacts c

@@ -18,15 +18,11 @@
 #include <system_error>
 #include <utility>
 
-#include "rollfix/arguments/settings_file.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
-#include "rollfix/output/option_names.hpp"
-#include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/pulse.hpp"
-#include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
 #include "text/text.hpp"
 

@@ -5,20 +5,14 @@
 #include <vector>
 
 #include "documents/documents.hpp"
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/output_argument.hpp"
-#include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/arguments/typed.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/inspect/inspect_outcome.hpp"
 #include "rollfix/log.hpp"
+#include "rollfix/program.hpp"
 #include "rollfix/rolling.hpp"
 #include "rollfix/teach.hpp"
-#include "rollfix/usage.hpp"
 
 namespace rollfix::app {
 namespace {

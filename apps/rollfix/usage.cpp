@@ -1,4 +1,4 @@
-#include "rollfix/usage.hpp"
+#include "rollfix/program.hpp"
 
 #include <fmt/format.h>
 

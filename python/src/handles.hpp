@@ -3,7 +3,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "rollfix/identify.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/part.hpp"
+#include "rollfix/plan.hpp"
 #include "rollfix/question.hpp"
 #include "rollfix/rolling.hpp"
 #include "rollfix/solve.hpp"
@@ -107,5 +107,14 @@ template <>
 inline constexpr bool kIsPythonClass<Reach> = true;
 template <>
 inline constexpr bool kIsPythonClass<Question> = true;
+
+/// A plan and what it is of.
+struct PlanHandle {
+  std::shared_ptr<const PlanProblem> problem;
+  std::shared_ptr<const Plan> plan;
+};
+
+template <>
+inline constexpr bool kIsPythonClass<PlanHandle> = true;
 
 }  // namespace rollfix::python

@@ -1,4 +1,4 @@
-#include "diagnosis.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
-#include "weighing.hpp"
 
 // Notation:
 //   chi^2, nu       squares of what the rows are off in standard deviations, and their degrees of freedom: Fit

@@ -1,4 +1,4 @@
-#include "either_way.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <array>

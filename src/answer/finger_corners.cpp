@@ -1,4 +1,4 @@
-#include "finger_corners.hpp"
+#include "steps.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "belief/error_model.hpp"
-#include "locate/corner_sets.hpp"
 #include "locate/remaining.hpp"
+#include "locate/searches.hpp"
 #include "outline/turn.hpp"
 #include "part/turning_range.hpp"
 #include "rollfix/error.hpp"

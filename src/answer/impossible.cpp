@@ -1,4 +1,4 @@
-#include "impossible.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "finger/convex_body.hpp"
-#include "locate/sieve.hpp"
+#include "locate/searches.hpp"
 #include "rollfix/finger.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"

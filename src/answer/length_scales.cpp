@@ -1,4 +1,4 @@
-#include "diagnosis.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "weighing.hpp"
 
 // Notation:
 //   k               lengths are k times what was measured: `scale`, of one finger or of both

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "finger_corners.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include "diagnosis.hpp"
 #include "outline/turn.hpp"
+#include "steps.hpp"
 
 // Mistakes in how the columns of a log are read: units, signs, names.
 // Notation:

@@ -11,16 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "either_way.hpp"
-#include "finger_corners.hpp"
-#include "impossible.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
 #include "steps.hpp"
-#include "unweighed.hpp"
-#include "weighing.hpp"
 
 // From a problem to its answer: the order of the steps, and what each of them is given.
 // Notation:

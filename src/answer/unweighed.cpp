@@ -1,18 +1,16 @@
-#include "unweighed.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
 
-#include "diagnosis.hpp"
-#include "locate/corner_sets.hpp"
+#include "locate/searches.hpp"
 #include "log/jitter.hpp"
 #include "outline/turn.hpp"
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
-#include "weighing.hpp"
 
 // Notation:
 //   off             by how much a row misses a placement, against what digits leave open: `kOverTolerance` times

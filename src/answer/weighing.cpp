@@ -1,10 +1,9 @@
-#include "weighing.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "diagnosis.hpp"
 #include "log/jitter.hpp"
 #include "rollfix/pulse.hpp"
 

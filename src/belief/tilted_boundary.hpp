@@ -15,6 +15,9 @@ namespace rollfix::belief {
 /// 2/3, 1/6.
 inline constexpr double kSigmaPoint = std::numbers::sqrt3;
 
+// A contact that is this much of a radian off where the boundary is looked at is looked at there as well as anywhere.
+inline constexpr double kSameLine = 0.02;
+
 /// The line of least squares through three such points, `reach` from the middle one: its value and slope there, and
 /// the variance of what it misses.
 struct SigmaLine {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
-#include "locate/corner_sets.hpp"
+#include "locate/searches.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/belief.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "belief/posterior.hpp"
 #include "bounds/bounds.hpp"
-#include "catalog/bounds/bounds.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"

@@ -4,11 +4,10 @@
 #include <numbers>
 #include <utility>
 
-#include "hold/arc_tree.hpp"
-#include "hold/held_question.hpp"
-#include "hold/hold_equations.hpp"
+#include "hold/box_search.hpp"
+#include "hold/held_rows.hpp"
 #include "hold/hold_fit.hpp"
-#include "hold/problem.hpp"
+#include "hold/steps.hpp"
 #include "outline/turn.hpp"
 #include "places.hpp"
 #include "rollfix/certify.hpp"

@@ -9,7 +9,7 @@
 #include "places.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
-#include "touch/poses_beyond.hpp"
+#include "touch/steps.hpp"
 
 // Notation:
 //   pose            x, y and heading of the part; a set of them is an extent: CertifiedPose

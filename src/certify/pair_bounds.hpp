@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "locate/pair/range.hpp"
+#include "locate/pair/plane_curve.hpp"
 #include "rollfix/locate.hpp"
 #include "rollfix/part.hpp"
 #include "rollfix/reading.hpp"

@@ -6,7 +6,7 @@
 
 #include "documents/documents.hpp"
 #include "log/header/log_header.hpp"
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/documents.hpp"
 #include "text/text.hpp"
 

@@ -1,4 +1,4 @@
-#include "fingers_apart.hpp"
+#include "steps.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <string>
 
-#include "arc_tree.hpp"
+#include "box_search.hpp"
 #include "finger/convex_body.hpp"
+#include "held_rows.hpp"
 #include "part/turning_range.hpp"
-#include "problem.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
 

@@ -1,4 +1,4 @@
-#include "held_question.hpp"
+#include "steps.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "problem.hpp"
+#include "held_rows.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part.hpp"
 

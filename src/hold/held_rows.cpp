@@ -10,7 +10,6 @@
 #include "belief/nodes.hpp"
 #include "belief/posterior.hpp"
 #include "log/jitter.hpp"
-#include "problem.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
 //   L_i(t)          what contact i has travelled on the part since the first row: `travelled`

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hold_equations.hpp"
+#include "hold_fit.hpp"
 #include "outline/turn.hpp"
 
 // Notation as in hold_fit.cpp:

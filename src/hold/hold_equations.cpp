@@ -1,4 +1,4 @@
-#include "hold_equations.hpp"
+#include "hold_fit.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <utility>
 
-#include "hold_equations.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 

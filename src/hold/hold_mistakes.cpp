@@ -1,4 +1,4 @@
-#include "hold_mistakes.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "held_question.hpp"
-#include "mended_holds.hpp"
-#include "problem.hpp"
+#include "held_rows.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 

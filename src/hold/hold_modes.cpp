@@ -1,4 +1,4 @@
-#include "weigh_holds.hpp"
+#include "steps.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

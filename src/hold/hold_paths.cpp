@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "hold_equations.hpp"
+#include "hold_fit.hpp"
 
 // Notation as in hold_pins.cpp:
 //   phi_k, sigma_k  the part's heading at row k in one of its poses, and its standard deviation there

@@ -1,4 +1,4 @@
-#include "mended_holds.hpp"
+#include "steps.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
+#include "held_rows.hpp"
 #include "log/log_rows.hpp"
 #include "outline/turn.hpp"
-#include "problem.hpp"
-#include "touch/mistakes.hpp"
+#include "touch/steps.hpp"
 
 // Logs without rows that jump away, and problems as they would be without a mistake. Notation:
 //   jump            a row that a finger can't have been at, by how far it goes there and back: `without_strays`, asked

@@ -1,4 +1,4 @@
-#include "problem.hpp"
+#include "held_rows.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,10 +8,9 @@
 
 #include "box_search.hpp"
 #include "finger/convex_body.hpp"
-#include "held_rows.hpp"
 #include "log/log_rows.hpp"
 #include "log/mirrored.hpp"
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/error.hpp"
 

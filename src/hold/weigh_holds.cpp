@@ -1,4 +1,4 @@
-#include "weigh_holds.hpp"
+#include "steps.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "fingers_apart.hpp"
 #include "held_rows.hpp"
 #include "hold_fit.hpp"
 #include "locate/remaining.hpp"

@@ -1,4 +1,4 @@
-#include "corner_sets.hpp"
+#include "searches.hpp"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>

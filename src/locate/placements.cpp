@@ -1,4 +1,4 @@
-#include "placements.hpp"
+#include "searches.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -9,7 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "corner_sets.hpp"
 #include "outline/turn.hpp"
 #include "part/part_data.hpp"
 #include "rollfix/locate.hpp"

@@ -8,8 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "corner_sets.hpp"
-
 // Notation:
 //   f(s)            Theta(s + L) - Theta(s) - theta, eqs. (4), (5): ResidualSample; of several readings the largest |f|
 //   piece, root     what the search left, and zeros of f in it: StartPiece, Root

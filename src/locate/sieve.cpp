@@ -1,11 +1,10 @@
-#include "sieve.hpp"
+#include "searches.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "corner_sets.hpp"
 #include "part/turning_range.hpp"
 #include "rollfix/locate.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "march/limit.hpp"
 #include "march/path.hpp"
+#include "march/sweep.hpp"
 #include "rollfix/march.hpp"
 
 namespace rollfix::march {

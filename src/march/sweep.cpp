@@ -12,7 +12,7 @@
 //   sigma(s)      end of the segment that starts at s: s + L
 //   excess, side  phi(s) - C, and its sign
 // Idea: between two sign changes g(s) and g(t) keep their signs, one of four modes. Both signs the same: the march of
-// section 2.1 (alternation.cpp). Different: phi is monotone, and bisection finds its one root or none. Theorem 5 counts
+// section 2.1 (march.cpp). Different: phi is monotone, and bisection finds its one root or none. Theorem 5 counts
 // the steps.
 
 namespace rollfix::march {

@@ -1,14 +1,119 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "march/limit.hpp"
 #include "march/path.hpp"
-#include "march/preprocessing.hpp"
 #include "rollfix/march.hpp"
 
 namespace rollfix::march {
+
+// When a search ends, for one finger and for two: Cases 1 and 2 of section 2.1 and Figure 6 converge alike.
+
+/// The smallest limit that rounding errors of s leave room for.
+inline constexpr double kLeastLimit = 1e-14;
+/// Rounding errors of an advance of s or t, as a part of P: some sums of lengths of up to two loops.
+inline constexpr double kLengthRounding = 4e-15;
+/// Equations that hold to rounding over more than this part of P: a continuum.
+inline constexpr double kContinuum = 1e-3;
+/// A limit is good enough, where rounding prevents better, when the reset surely passes what was found.
+inline constexpr double kPartOfReset = 0.25;
+/// Two finds of one root differ by the estimated distances to it: by no more than this many limit tolerances.
+inline constexpr double kSameRoot = 4;
+
+/// When a limit counts as reached; lengths in the outline's unit.
+struct LimitRule {
+  double tolerance = 0;        // estimated distance to the limit
+  double rounding = 0;         // advances below this are rounding errors
+  double loosest = 0;          // estimated distance that will do once advances are rounding errors
+  std::size_t iterations = 0;  // rounds before giving up
+};
+
+/// `limit` and `reset` are parts of the perimeter, as in the options.
+inline LimitRule limit_rule(double limit, double reset, std::size_t iterations, double perimeter) {
+  const double tolerance = limit * perimeter;
+  const double loosest = std::fmax(tolerance, kPartOfReset * reset * perimeter);
+  return {tolerance, kLengthRounding * perimeter, loosest, iterations};
+}
+
+/// How rounds towards a limit ended.
+struct Approach {
+  enum class End { going_on, limit, exit, stalled };  // exit: the interval, or the mode, ends before the limit
+  End end = End::limit;
+  std::size_t iterations = 0;
+  double rate = 0;   // by which the distance shrank in the last round
+  double error = 0;  // estimated distance to the limit
+};
+
+/// Lemma 2: the distance to the limit shrinks by `rate` per round, so that before an advance by `advance` it was about
+/// advance / (1 - rate). Advances that are lost in rounding leave as much, on whichever side; a rate too near to 1 then
+/// leaves more than the reset can pass.
+inline Approach::End judge(double advance, double rate, const LimitRule& rule, double& error) {
+  error = advance / (1 - rate);
+  if (rate < 1 && error <= rule.tolerance) return Approach::End::limit;
+  if (advance > rule.rounding) return Approach::End::going_on;
+  error = rule.rounding / std::fabs(1 - rate);
+  return error <= rule.loosest ? Approach::End::limit : Approach::End::stalled;
+}
+
+/// The sign that a search carries along: +1 or -1.
+inline int side_of(double excess) { return excess < 0 ? -1 : 1; }
+
+/// A simple zero of the density, the paper's z_i, or a joint at which its sign jumps.
+struct SignChange {
+  /// with length and integral from s = 0
+  Position at;
+  /// of the density just beyond it
+  int sign_after = 1;
+};
+
+/// What section 2.2 computes once per shape, in one walk of T/h steps: the z_i, with the length l(z_1, z_i) and the
+/// integral Phi(z_1, z_i) of each as differences of their sums from s = 0.
+struct Preprocessed {
+  Position front;                    // s = 0
+  Position back;                     // s = P, at the end of the last step
+  Span loop;                         // over the whole outline: P and the total integral
+  double variation = 0;              // integral of |g|, to a few digits: what rounding errors are measured against
+  int first_sign = 1;                // of g just after s = 0
+  std::vector<SignChange> changes;   // in order, s in [0, P)
+  std::vector<double> curve_starts;  // arc length at which each curve of the outline starts
+};
+
+/// Throws Refusal for what the paper excludes: see Reason.
+Preprocessed preprocess(const Path& path);
+
+/// The density's value at a point of a curve.
+struct Sample {
+  double u = 0;
+  double density = 0;
+};
+
+/// The density along each curve, at a few points per step, both ends of the curve included.
+struct Samples {
+  std::vector<std::vector<Sample>> curves;
+  double scale = 0;  // largest |g| over the outline
+};
+
+Samples sample(const Path& path);
+
+/// A zero of the density, or a joint at which its sign jumps.
+struct Zero {
+  std::size_t curve = 0;
+  double u = 0;
+  int sign_after = 1;
+  bool simple = true;  // false: the slope vanishes too, with or without a sign change
+};
+
+struct Zeros {
+  std::vector<Zero> list;  // in order; one at the seam of a closed outline comes first
+  int first_sign = 1;      // of the density just after s = 0
+};
+
+/// Every zero of the density that is wider than the samples' spacing, or whose dip shows in them. REQUIRES that the
+/// density is not zero on a whole curve.
+Zeros find_zeros(const Path& path, const Samples& samples);
 
 /// The problem after its reduction: 0 < length < P on a closed outline, 0 < length <= P on an open one.
 struct Problem {

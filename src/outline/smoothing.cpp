@@ -10,7 +10,7 @@
 
 #include "outline/box.hpp"
 #include "outline/corners.hpp"
-#include "outline/fitted_spline.hpp"
+#include "outline/spline.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"

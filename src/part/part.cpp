@@ -14,7 +14,6 @@
 #include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
-#include "turning_builder.hpp"
 
 // Notation:
 //   s, base         a place by arc length, and the same on the first lap; x on its panel, u on its curve

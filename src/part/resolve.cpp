@@ -1,4 +1,4 @@
-#include "turning_builder.hpp"
+#include "part_data.hpp"
 
 #include <fmt/format.h>
 

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
+#include "part_data.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
-#include "turning_builder.hpp"
 
 // Notation:
 //   s, P            arc length, in `Panel::lo` to `hi` on a panel; perimeter: `perimeter_`

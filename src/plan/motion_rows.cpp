@@ -1,5 +1,5 @@
 #include "log/wrapping.hpp"
-#include "plan/conditions.hpp"
+#include "plan/planning.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <numbers>
 
 // Notation:
-//   x, y               turns of the fingers against the part, with rates x', y'; c, p as in roll_path.hpp
+//   x, y               turns of the fingers against the part, with rates x', y'; c, p as in planning.hpp
 //   phi, X             the part's heading and where its frame's origin is
 //   w                  velocity of a finger's origin if X rested: J is a turn by a right angle,
 //                      w = phi' J R(phi) c + x' J R(phi) (c - p), since the finger turns about its contact

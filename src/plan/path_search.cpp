@@ -1,4 +1,4 @@
-#include "plan/path_search.hpp"
+#include "plan/planning.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "plan/squeeze.hpp"
-
-// Notation, with x, y as in roll_path.hpp and B as in squeeze.hpp:
+// Notation, with x, y as in planning.hpp and B as in planning.hpp:
 //   x_i, y_j        nodes of both turns: `of_a`, `of_b`
 //   m_ij            margin there: `margin_at`
 //   w_ij            the best worst margin of a path from the start to there: `worst`, w_i+1,j = min(m, max w_i,j')

@@ -1,4 +1,4 @@
-#include "plan/plan_requirements.hpp"
+#include "plan/planning.hpp"
 
 #include <fmt/format.h>
 #include <cmath>

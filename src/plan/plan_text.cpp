@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "plan/plan_requirements.hpp"
+#include "plan/planning.hpp"
 #include "rollfix/plan.hpp"
 
 namespace rollfix {

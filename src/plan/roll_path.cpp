@@ -1,4 +1,4 @@
-#include "plan/roll_path.hpp"
+#include "plan/planning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "plan/squeeze.hpp"
 #include "rollfix/error.hpp"
 
-// Notation, with x as in roll_path.hpp, y the same of finger b, and B as in squeeze.hpp:
+// Notation, with x as in planning.hpp, y the same of finger b, and B as in planning.hpp:
 //   lambda          along the path, from 0 to 1; knots lambda_k with turns x_k, y_k: `knots_`, `turned_`
 //   m_k             slopes there, `slopes_`: the secants' weighted harmonic mean, 0 where they differ in sign
 //   x(lambda)       cubic between two knots from its values and slopes; beside a wheel y solves B(x, y) = 0

@@ -9,14 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "plan/conditions.hpp"
-#include "plan/path_search.hpp"
-#include "plan/plan_requirements.hpp"
-#include "plan/squeeze.hpp"
+#include "plan/planning.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/solve.hpp"
 
-// Notation, with x, y as in roll_path.hpp and A, B as in squeeze.hpp:
+// Notation, with x, y as in planning.hpp and A, B as in planning.hpp:
 //   goal            x at the end of finger a's length; y is as long, or any in `range_of`, or what balances a wheel
 //   margin          the least of cone - |A| and cone - |B|, where the fingers are apart: `margin_between`, `cone_of`
 //   looked          each condition with what is left of it where it is worst: Looked

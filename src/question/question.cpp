@@ -1,15 +1,197 @@
-#include "rollfix/question.hpp"
-
 #include <fmt/format.h>
-
+#include <array>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "answer/steps.hpp"
+#include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 #include "rollfix/error.hpp"
+#include "rollfix/question.hpp"
 #include "rollfix/solve.hpp"
-#include "uses.hpp"
 #include "work/crew.hpp"
 
+// Which options go with which contacts. A search takes an option if its problem has the field; what it has no use for
+// is refused, with the reason that `Uses` knows for this kind of contacts.
+namespace rollfix::question {
+
+/// Why contacts of some kind have no use for an option, as a whole message.
+class Uses {
+ public:
+  explicit Uses(const Question& question);
+
+  /// Throws InputError where it is given all the same. `name`: of the Question's field.
+  void refuse(bool is_given, std::string_view name) const;
+
+ private:
+  /// The message for this kind of contacts.
+  std::string why_not(std::string_view name) const;
+
+  const Question& question_;  // has to outlive this
+  QuestionKind kind_;         // which search answers
+  bool has_rolls_;            // logs of fingers are among the contacts
+};
+
+/// Throws InputError: contacts of different kinds, none at all.
+void require_contacts(const Question& question);
+
+/// The options that a search has fields for; those that it has not must not be given.
+template <class Searched>
+void hand_over(const Question& question, Searched& problem) {
+  // A field that the problem has is handed over; what is given of the others is refused. Noise, budget and mirror are
+  // taken by all searches.
+  const Uses uses(question);
+  problem.noise = question.noise;
+  problem.budget = question.budget;
+  problem.mirrored = question.mirrored;
+  if constexpr (requires { problem.facing; })
+    problem.facing = question.facing;
+  else
+    uses.refuse(question.facing.has_value(), "facing");
+  if constexpr (requires { problem.at; })
+    problem.at = question.at;
+  else
+    uses.refuse(!question.at.empty(), "at");
+  if constexpr (requires { problem.prior; })
+    problem.prior = question.prior;
+  else
+    uses.refuse(question.prior.has_value(), "prior");
+  // `heading` is a pose prior without a place: its message has its own name.
+  if constexpr (requires { problem.pose; })
+    problem.pose = question.pose;
+  else if (question.pose)
+    uses.refuse(true, name_of(*question.pose));
+  // Counting clockwise is no field: `roll_problem` turns the lengths.
+  if constexpr (requires { problem.either_way; })
+    problem.either_way = question.direction == Direction::either;
+  else
+    uses.refuse(question.direction.has_value(), "direction");
+  if constexpr (requires { problem.robust; })
+    problem.robust = question.robust;
+  else
+    uses.refuse(question.robust, "robust");
+  if constexpr (requires { problem.may_overlap; })
+    problem.may_overlap = question.may_overlap;
+  else
+    uses.refuse(question.may_overlap, "may_overlap");
+  // Refused in `require_contacts` where no wheel is given.
+  if constexpr (requires { problem.squeezed; }) problem.squeezed = question.squeezed;
+  // Paths that were free before a touch.
+  if constexpr (requires { problem.clear; })
+    problem.clear = question.measured.clear;
+  else
+    uses.refuse(!question.measured.clear.empty(), "clear");
+  // A search that looks for no mistakes ignores it.
+  if constexpr (requires { problem.diagnose; }) problem.diagnose = question.diagnose;
+}
+
+// Why an option does not go with some contacts, in one sentence each.
+// Idea: two tables of reasons, one for each kind of search; an option without an entry has a general reason.
+
+namespace {
+
+struct Reason {
+  std::string_view name;  // of the Question's field
+  const char* text;       // {}: what contacts of this kind are called
+};
+
+// Of several rolls on a part at rest.
+constexpr std::array<Reason, 6> kOfRollsAtRest = {{
+    {"reading", "`at_rest` takes the rolls of a log"},
+    {"facing", "rolls with u and psi have it themselves"},
+    {"at", "`at_rest` takes rows all along every roll"},
+    {"prior", "it is of the start of one roll"},
+    {"direction", "rolls with u and psi say the direction themselves"},
+    {"may_overlap", "it is of two fingers"},
+}};
+
+// Of several fingers on a part that moves.
+constexpr std::array<Reason, 9> kOfMoving = {{
+    {"reading", "{} are taken from logs"},
+    {"facing", "logs of u and psi contain it"},
+    {"prior", "it is not taken with {}"},
+    {"heading", "{} tell how the part lies themselves"},
+    {"pose", "{} tell how the part lies themselves"},
+    {"direction", "logs of u and psi contain it"},
+    {"robust", "outliers are not looked for with {}"},
+    {"may_overlap", "overlapping fingers are not looked for with {}"},
+    {"clear", "it is about touches"},
+}};
+
+/// `contacts`: what to call contacts of this kind in the message.
+template <class Reasons>
+std::string reason_for(std::string_view name, const Reasons& reasons, const char* contacts) {
+  // Reasons name the contacts with {} where that reads better.
+  for (const Reason& one : reasons) {
+    if (one.name == name) return fmt::format(fmt::runtime(one.text), contacts);
+  }
+  return fmt::format("it is not taken with {}", contacts);
+}
+
+}  // namespace
+
+Uses::Uses(const Question& question)
+    : question_(question), kind_(kind_of(question)), has_rolls_(!question.measured.rolls.empty()) {}
+
+/// The field, the reason, and what to do instead.
+std::string Uses::why_not(std::string_view name) const {
+  // Here the advice is to give other contacts.
+  if (name == "clear" && kind_ == QuestionKind::roll) {
+    return "`clear` is about touches and several rolls: give `touch`, or rolls with `at_rest`, or leave `clear` out";
+  }
+  // Touches alone.
+  if (kind_ == QuestionKind::at_rest && !has_rolls_) {
+    return fmt::format("`{}`: touches do not roll and have no use for it; leave it out", name);
+  }
+  // Rolls on a part at rest, with or without touches.
+  if (kind_ == QuestionKind::at_rest) {
+    return fmt::format("`{}`: {}; leave it out, or choose one roll with `roll` N", name,
+                       reason_for(name, kOfRollsAtRest, "several rolls"));
+  }
+  // Fingers on a part that moves.
+  const bool has_wheel = !question_.measured.wheels.empty();
+  const char* const contacts = has_wheel ? "fingers beside a wheel" : "three and more fingers";
+  return fmt::format("`{}`: {}; leave it out", name, reason_for(name, kOfMoving, contacts));
+}
+
+void Uses::refuse(bool is_given, std::string_view name) const {
+  if (is_given) throw InputError(why_not(name));
+}
+
+/// After this the kind of the question has all contacts that it needs, and none of another kind.
+void require_contacts(const Question& question) {
+  const Measurements& measured = question.measured;
+  const QuestionKind kind = kind_of(question);
+  // Wheels turn a part that moves.
+  if (kind == QuestionKind::at_rest && !measured.wheels.empty()) {
+    throw InputError(
+        "`at_rest`: a wheel without skin says something beside a finger, of a part that both of them touch at once; "
+        "leave it out, or the wheels");
+  }
+  // Touches are all of one pose, which a moving part does not have.
+  if (kind != QuestionKind::at_rest && !measured.touches.empty()) {
+    throw InputError("`touch` and a `log` of rolls share a pose with `at_rest`: add it");
+  }
+  // A part is squeezed between a finger and a wheel.
+  if (question.squeezed && measured.wheels.empty()) {
+    throw InputError(
+        "`squeezed`: it is about a finger with skin and a wheel without that squeeze a part, such as a jaw and "
+        "wheel,r=0.4; leave it out");
+  }
+  // Readings are of one roll alone.
+  if (kind != QuestionKind::roll) return Uses(question).refuse(!measured.readings.empty(), "reading");
+  // The kind is a roll, for want of anything else.
+  if (measured.readings.empty() && measured.rolls.empty()) {
+    throw InputError("expected readings, a log or touches, found none");
+  }
+  if (!measured.readings.empty() && !measured.rolls.empty()) {
+    throw InputError("expected readings or a log, found both: they can't be of the same roll");
+  }
+}
+
+}  // namespace rollfix::question
+
+// ---- the question
 // Which search answers a question, and the problem that it takes.
 // Notation:
 //   roll            one roll of one finger, or of two together: Problem, `roll_problem`
@@ -174,6 +356,66 @@ std::vector<Outcome> solve(std::span<const Question> questions, const ManyOption
   });
   crew.require_done();
   return outcomes;
+}
+
+// ---- the solution
+// What answers of all kinds have in common.
+// Idea: overloads for each kind of answer, called by `visit`; a template is the rule, an overload for a type the
+// exception.
+
+namespace {
+
+// What each kind of answer lists: `poses` of touches, else placements.
+const auto& placements_of(const Answer& answer) { return answer.placements; }
+const auto& placements_of(const TouchAnswer& answer) { return answer.poses; }
+const auto& placements_of(const HoldAnswer& answer) { return answer.placements; }
+
+template <class Any>
+bool something_fits(const Any& answer) {
+  return !placements_of(answer).empty();
+}
+// Of touches the verdict says it.
+bool something_fits(const TouchAnswer& answer) { return answer.verdict.name != Verdict::inconsistent; }
+
+template <class Any>
+std::string text_of(const Any& answer) {
+  return answer.verdict_text();
+}
+// A roll's verdict is a sentence by itself; those of other kinds need the answer.
+std::string text_of(const Answer& answer) { return answer.verdict.text(); }
+
+template <class Any>
+std::optional<Noise> noise_of(const Any& answer) {
+  return answer.noise;
+}
+// A roll's answer keeps its noise with what was weighed.
+std::optional<Noise> noise_of(const Answer& answer) {
+  return answer.weighing ? std::optional(answer.weighing->noise) : std::nullopt;
+}
+
+}  // namespace
+
+/// Each of these asks the answer that there is.
+const Part& Solution::part() const {
+  return visit([](const auto& answer) -> const Part& { return answer.part; });
+}
+Status Solution::status() const {
+  return visit([](const auto& answer) { return answer.status; });
+}
+const Verdict& Solution::verdict() const {
+  return visit([](const auto& answer) -> const Verdict& { return answer.verdict; });
+}
+std::string Solution::verdict_text() const {
+  return visit([](const auto& answer) { return text_of(answer); });
+}
+std::size_t Solution::count() const {
+  return visit([](const auto& answer) { return placements_of(answer).size(); });
+}
+bool Solution::fits() const {
+  return visit([](const auto& answer) { return something_fits(answer); });
+}
+std::optional<Noise> Solution::noise() const {
+  return visit([](const auto& answer) { return noise_of(answer); });
 }
 
 }  // namespace rollfix

@@ -9,8 +9,7 @@
 #include "log/roll_rows.hpp"
 #include "log/wrapping.hpp"
 #include "part/part_data.hpp"
-#include "roll/noise_kinds.hpp"
-#include "roll/normal_numbers.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
 

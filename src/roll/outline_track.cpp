@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "part/part_data.hpp"
-#include "roll/track.hpp"
+#include "roll/motion.hpp"
 #include "rollfix/error.hpp"
 
 // Notation, as in docs/rolling.md, "Fingers of any convex shape":

@@ -1,4 +1,4 @@
-#include "roll/track.hpp"
+#include "roll/motion.hpp"
 
 #include <fmt/format.h>
 

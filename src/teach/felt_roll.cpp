@@ -1,4 +1,4 @@
-#include "teach/felt_roll.hpp"
+#include "teach/teaching.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "teach/lap.hpp"
+#include "teach/teaching.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "teach/turning_course.hpp"
+#include "teach/teaching.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/LU>

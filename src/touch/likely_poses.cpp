@@ -1,4 +1,4 @@
-#include "likely_poses.hpp"
+#include "steps.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "mistakes.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <array>

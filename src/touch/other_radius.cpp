@@ -1,4 +1,4 @@
-#include "mistakes.hpp"
+#include "steps.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-#include "outlier_sets.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "answer_poses.hpp"
 #include "belief/posterior.hpp"
 #include "measured.hpp"
 #include "pose_fit.hpp"

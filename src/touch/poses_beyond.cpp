@@ -1,4 +1,4 @@
-#include "poses_beyond.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "answer_poses.hpp"
 #include "outline/turn.hpp"
-#include "pose_sets.hpp"
 #include "problem.hpp"
 #include "roll_contacts.hpp"
 #include "rollfix/locate.hpp"

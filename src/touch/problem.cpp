@@ -11,7 +11,7 @@
 
 #include "log/mirrored.hpp"
 #include "outline/turn.hpp"
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

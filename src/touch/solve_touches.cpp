@@ -4,16 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "answer_poses.hpp"
 #include "locate/remaining.hpp"
-#include "mistakes.hpp"
-#include "outlier_sets.hpp"
-#include "pose_sets.hpp"
 #include "problem.hpp"
 #include "roll_contacts.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/touch.hpp"
+#include "steps.hpp"
 
 // Notation:
 //   contact      a roll's first one or a touch, rolls first: `contacts.each`; two of them are the `pair`

@@ -1,4 +1,4 @@
-#include "pose_sets.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "answer_poses.hpp"
 #include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "posterior.hpp"

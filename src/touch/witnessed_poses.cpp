@@ -1,4 +1,4 @@
-#include "pose_sets.hpp"
+#include "steps.hpp"
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "answer_poses.hpp"
 #include "cell_search.hpp"
 #include "outline/turn.hpp"
 #include "pose_fit.hpp"

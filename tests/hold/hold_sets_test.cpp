@@ -4,10 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "hold/held_question.hpp"
 #include "hold/held_rows.hpp"
-#include "hold/problem.hpp"
-#include "hold/weigh_holds.hpp"
+#include "hold/steps.hpp"
 #include "hold_cases.hpp"
 #include "rollfix/files.hpp"
 

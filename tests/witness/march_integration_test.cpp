@@ -7,7 +7,7 @@
 #include <boost/math/special_functions/ellint_2.hpp>
 
 #include "march/path.hpp"
-#include "march/preprocessing.hpp"
+#include "march/sweep.hpp"
 #include "march_shapes.hpp"
 
 namespace march_integration_test {

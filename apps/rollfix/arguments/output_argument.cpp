@@ -1,4 +1,4 @@
-#include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
-#include "rollfix/output/files.hpp"
-#include "rollfix/usage.hpp"
+#include "rollfix/output/report.hpp"
+#include "rollfix/program.hpp"
 
 namespace rollfix::app {
 

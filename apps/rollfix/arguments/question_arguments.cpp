@@ -1,4 +1,4 @@
-#include "rollfix/arguments/question_arguments.hpp"
+#include "rollfix/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/touch_arguments.hpp"
+#include "rollfix/locate/locate_command.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

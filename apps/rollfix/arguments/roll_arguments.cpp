@@ -1,4 +1,4 @@
-#include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/typed.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
-#include "rollfix/usage.hpp"
+#include "rollfix/program.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
 

@@ -1,4 +1,4 @@
-#include "rollfix/arguments/settings_file.hpp"
+#include "rollfix/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,9 @@
 #include <set>
 #include <utility>
 
-#include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
-#include "rollfix/usage.hpp"
+#include "rollfix/program.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -1,4 +1,4 @@
-#include "rollfix/arguments/typed.hpp"
+#include "rollfix/arguments/arguments.hpp"
 
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>

@@ -7,15 +7,12 @@
 #include <vector>
 
 #include "documents/json_output.hpp"
-#include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/typed.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
-#include "rollfix/output/option_names.hpp"
-#include "rollfix/output/progress_line.hpp"
+#include "rollfix/output/report.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/usage.hpp"
+#include "rollfix/program.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -9,10 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "rollfix/arguments/output_argument.hpp"
-#include "rollfix/arguments/question_arguments.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"

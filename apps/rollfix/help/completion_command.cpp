@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
+#include "rollfix/program.hpp"
 
 namespace rollfix::app {
 namespace {

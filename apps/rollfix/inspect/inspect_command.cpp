@@ -6,18 +6,14 @@
 #include <numbers>
 
 #include "documents/documents.hpp"
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/output_argument.hpp"
-#include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/inspect/inspect_outcome.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/program.hpp"
 #include "rollfix/solve.hpp"
-#include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -1,4 +1,4 @@
-#include "rollfix/locate/batch.hpp"
+#include "rollfix/locate/locate_command.hpp"
 
 #include <fmt/format.h>
 
@@ -16,14 +16,13 @@
 
 #include "documents/documents.hpp"
 #include "files/json/fields.hpp"
-#include "rollfix/arguments/question_arguments.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/option_names.hpp"
+#include "rollfix/output/report.hpp"
+#include "rollfix/program.hpp"
 #include "rollfix/question.hpp"
-#include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -1,4 +1,4 @@
-#include "rollfix/locate/locate_by_march.hpp"
+#include "rollfix/locate/locate_command.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 #include <string>
 
-#include "rollfix/arguments/typed.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/march.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/usage.hpp"
+#include "rollfix/program.hpp"
 #include "text/text.hpp"
 
 // `locate --march`: the answer by the paper's own algorithm, with its counts.

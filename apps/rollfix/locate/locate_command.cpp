@@ -8,20 +8,14 @@
 #include <vector>
 
 #include "answer/steps.hpp"
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/output_argument.hpp"
-#include "rollfix/arguments/question_arguments.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/batch.hpp"
-#include "rollfix/locate/locate_by_march.hpp"
-#include "rollfix/locate/more_outputs.hpp"
-#include "rollfix/locate/touch_arguments.hpp"
+#include "rollfix/locate/locate_command.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/program.hpp"
 #include "rollfix/solve.hpp"
-#include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

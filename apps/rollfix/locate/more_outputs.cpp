@@ -1,4 +1,4 @@
-#include "rollfix/locate/more_outputs.hpp"
+#include "rollfix/locate/locate_command.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "rollfix/certify.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/output/files.hpp"
+#include "rollfix/output/report.hpp"
 #include "rollfix/part.hpp"
 #include "rollfix/units.hpp"
 #include "text/text.hpp"

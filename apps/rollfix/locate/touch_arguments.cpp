@@ -1,4 +1,4 @@
-#include "rollfix/locate/touch_arguments.hpp"
+#include "rollfix/locate/locate_command.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "rollfix/arguments/typed.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/touch.hpp"
 #include "text/text.hpp"

@@ -8,7 +8,6 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/answer_words.hpp"
 
 namespace rollfix::app {
 namespace {

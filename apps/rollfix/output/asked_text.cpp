@@ -6,7 +6,6 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/answer_words.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

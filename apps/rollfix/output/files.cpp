@@ -1,4 +1,4 @@
-#include "rollfix/output/files.hpp"
+#include "rollfix/output/report.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -9,7 +9,6 @@
 #include "outline/turn.hpp"
 #include "rollfix/documents.hpp"
 #include "rollfix/inspect.hpp"
-#include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"
 

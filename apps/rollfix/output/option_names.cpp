@@ -1,4 +1,4 @@
-#include "rollfix/output/option_names.hpp"
+#include "rollfix/output/report.hpp"
 
 #include <array>
 #include <boost/algorithm/string/replace.hpp>

@@ -5,7 +5,6 @@
 
 #include "rollfix/inspect.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/answer_words.hpp"
 #include "rollfix/solve.hpp"
 
 namespace rollfix::app {

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "rollfix/commands.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/paper/claim.hpp"
-#include "rollfix/usage.hpp"
+#include "rollfix/program.hpp"
 
 namespace rollfix::app {
 namespace {

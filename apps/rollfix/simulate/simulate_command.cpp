@@ -7,17 +7,13 @@
 #include <string_view>
 
 #include "log/mirrored.hpp"
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/arguments/typed.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/program.hpp"
 #include "rollfix/simulate/simulation.hpp"
 #include "rollfix/solve.hpp"
-#include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "log/mirrored.hpp"
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/typed.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/rolling.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/arguments/part_argument.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/finger.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/part.hpp"

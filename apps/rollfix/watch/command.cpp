@@ -9,15 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/arguments/finger_argument.hpp"
-#include "rollfix/arguments/part_argument.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/arguments/typed.hpp"
-#include "rollfix/commands.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/program.hpp"
 #include "rollfix/touch.hpp"
-#include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/watching.hpp"
 #include "rollfix/watch/writer.hpp"

@@ -12,7 +12,7 @@
 #include <cerrno>
 #include <thread>
 
-#include "rollfix/arguments/typed.hpp"
+#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 
 // What lines are read from: a file that something else is writing, its new bytes as they come; standard input, named

@@ -11,7 +11,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/option_names.hpp"
+#include "rollfix/output/report.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "answer_state.hpp"
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"

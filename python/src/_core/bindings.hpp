@@ -2,8 +2,21 @@
 
 #include <pybind11/pybind11.h>
 
-// One function for each file: what it adds to the module.
+#include "arrays.hpp"
+#include "fingers.hpp"
+#include "handles.hpp"
+#include "rollfix/question.hpp"
+
 namespace rollfix::python {
+
+/// What pickle keeps of an answer: its part, its fingers, and all else as bytes.
+py::tuple answer_state(const AnswerHandle& handle);
+AnswerHandle answer_from_state(const PartHandle& part, const py::tuple& fingers, const py::bytes& bytes);
+
+/// The solution as Python holds it: an AnswerHandle, a TouchAnswerHandle or a HoldAnswerHandle.
+py::object handle_of(Solution solution, const Question& question);
+
+// One function for each file: what it adds to the module.
 
 void bind_part(pybind11::module_& module);
 void bind_log(pybind11::module_& module);

@@ -3,7 +3,6 @@
 #include <ctime>
 
 #include "bindings.hpp"
-#include "questions.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "answer_state.hpp"
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"

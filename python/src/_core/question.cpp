@@ -11,7 +11,6 @@
 #include "archive.hpp"
 #include "belief/posterior.hpp"
 #include "bindings.hpp"
-#include "questions.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -21,9 +21,6 @@ struct Outliers {
   double range = 1;  // length
 };
 
-// A contact that is this much of a radian off where it was measured is looked at there as well as anywhere.
-inline constexpr double kSameLine = 0.02;
-
 /// What a row adds to a filter. Minus twice the logarithm of its likelihood is cost + log(volume).
 struct RowShare {
   double weight;  // probability that it is not an outlier

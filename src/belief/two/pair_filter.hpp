@@ -6,16 +6,50 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "belief/error_model.hpp"
 #include "belief/nodes.hpp"
 #include "belief/posterior.hpp"
 #include "belief/tilted_boundary.hpp"
-#include "belief/two/pair_passings.hpp"
 #include "rollfix/turning_function.hpp"
 
 namespace rollfix::belief {
+
+struct PairModel;
+
+// What is wider than so many standard deviations of a contact has a flat middle between passings.
+inline constexpr double kWide = 6;
+
+/// A place of a first contact from where a node is at a corner, or at an open outline's end, with its standard
+/// deviation.
+struct Passing {
+  double s = 0;
+  double sd = 0;
+};
+
+/// All of one finger. Between two neighbours the likelihood is smooth: nearly constant, on flat sides; at each it
+/// changes within the passing's standard deviation.
+class Passings {
+ public:
+  Passings(const PairModel& model, std::size_t finger, const std::vector<PairNode>& nodes);
+
+  bool empty() const { return passings_.empty(); }
+  /// In order. REQUIRES on a closed outline: both on the first lap.
+  std::span<const Passing> between(double lo, double hi) const;
+  /// The least standard deviation of those within `reach` of s; infinite where there are none.
+  double sharpest(double s, double reach) const;
+  /// From the last one before s to the next after it, unwrapped as s is; infinite where there is none.
+  Interval gap(double s) const;
+
+ private:
+  Boundary boundary_;
+  std::vector<Passing> passings_;  // in order
+};
+
+/// Does it turn by more than the noise of the facing?
+bool is_felt(const PairModel& model, const Corner& corner);
 
 /// Two first contacts on trial, each by its tilted turning: at a convex corner that tells how far it has pivoted.
 struct PairStart {
@@ -116,5 +150,44 @@ PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at,
 template <int N>
 PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
                                const PairSharedCovariance* open, const std::array<double, 2>& before);
+
+/// What a row's numbers depend on, to first order, is one column each: the shared errors x (5), w of both first
+/// contacts (2), and the row's own errors of both places and of the turn (3).
+inline constexpr int kByErrors = 5;
+inline constexpr int kByStart = 2;
+inline constexpr int kByOwn = 3;
+inline constexpr int kByAll = kByErrors + kByStart + kByOwn;
+template <int Rows>
+using ByAll = Eigen::Matrix<double, Rows, kByAll>;
+
+/// What a row says of its contacts.
+struct RowPlaces {
+  std::array<double, 2> felt_at{};  // S: where they were felt, length, unwrapped
+  ByAll<2> felt_by = ByAll<2>::Zero();
+  std::array<double, 2> root{};  // w of each there, radians
+  double apart = 0;              // D: w_b - w_a, radians
+  ByAll<1> apart_by = ByAll<1>::Zero();
+  double own = 0;   // variance of S by the row's own error, length^2, ...
+  double turn = 0;  // ... and of D, radians^2
+  // The same by what the roll shares, as far as it is known: D moves with S.
+  std::array<double, 2> open{};
+  double open_turn = 0;
+};
+
+/// `open`: of x; nullptr: exactly x.
+RowPlaces places_in(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
+                    const PairSharedCovariance* open);
+
+/// Both contacts of a row, where they fit best.
+struct Contacts {
+  std::array<double, 2> w{};
+  std::array<double, 2> variance{};  // of each, by the errors of both; radians^2
+};
+
+/// The w_a that makes e_a^2 / V_a + e_b^2 / V_b least.
+Contacts contacts_of(const PairModel& model, const StartPlaces& at, const RowPlaces& row);
+
+// Where no contact tells w_a, both being at corners, it is known to this; radians.
+inline constexpr double kPivot = 0.3;
 
 }  // namespace rollfix::belief

@@ -30,6 +30,8 @@ namespace {
 
 // Rows that candidates are compared by, and that the first steps from them take.
 constexpr std::size_t kVeryFewRows = 20;
+// Of what these leave, each comparison takes so many times more.
+constexpr std::size_t kRowsMore = 4;
 constexpr std::size_t kFewRows = 40;
 constexpr int kCoarseSteps = 12;
 constexpr int kFineSteps = 8;
@@ -370,24 +372,37 @@ std::vector<PairPeak> climbed(const PairModel& model, std::vector<PairPeak> chos
                          on_trial ? kMostPeaksOnTrial : kMostPeaks);
 }
 
-/// Places that few rows do not rule out, compared by all of them; the others have no arc.
-std::vector<PairPeak> rescored(const PairModel& model, std::vector<PairPeak> places,
-                               const std::vector<PairNode>& nodes) {
+/// Of places compared by so many rows, those that these do not rule out; the others have no arc.
+void drop_hopeless(std::vector<PairPeak>& places, double rows) {
   const auto is_place = [](const PairPeak& one) { return one.start.arc[0] != nullptr; };
   const auto best = std::min_element(places.begin(), places.end(), [&](const PairPeak& one, const PairPeak& other) {
     return is_place(one) && (!is_place(other) || by_deviance(one, other));
   });
-  if (best == places.end()) return places;
-  const double scale = std::max(1.0, best->score.cost / static_cast<double>(kVeryFewRows));
+  if (best == places.end()) return;
+  const double scale = std::max(1.0, best->score.cost / rows);
   const double most = deviance(best->score) + kHopeless * scale;
   for (PairPeak& each : places) {
-    if (!is_place(each)) continue;
-    if (deviance(each.score) > most) {
-      each.start.arc[0] = nullptr;
-    } else {
-      each.score = score_of(model, each.start, nodes, PairShared::Zero(), 1);
+    if (is_place(each) && deviance(each.score) > most) each.start.arc[0] = nullptr;
+  }
+}
+
+/// Places that were compared by very few rows, compared by all of them; those that fewer rule out have no arc.
+std::vector<PairPeak> rescored(const PairModel& model, std::vector<PairPeak> places,
+                               const std::vector<PairNode>& nodes) {
+  for (std::size_t rows = kVeryFewRows; rows < nodes.size();) {
+    drop_hopeless(places, static_cast<double>(rows));
+    rows = std::min(kRowsMore * rows, nodes.size());
+    const std::vector<PairNode> some = some_of(nodes, rows);
+    for (PairPeak& each : places) {
+      if (each.start.arc[0] != nullptr) each.score = score_of(model, each.start, some, PairShared::Zero(), 1);
     }
   }
+  return places;
+}
+
+/// Without those that have no arc.
+std::vector<PairPeak> places_left(std::vector<PairPeak> places) {
+  std::erase_if(places, [](const PairPeak& each) { return each.start.arc[0] == nullptr; });
   return places;
 }
 
@@ -395,7 +410,8 @@ std::vector<PairPeak> rescored(const PairModel& model, std::vector<PairPeak> pla
 /// corner tells a place, by all.
 std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& candidates,
                                const std::vector<PairNode>& nodes) {
-  const std::vector<PairPeak> scores = scored(model, candidates, some_of(nodes, kVeryFewRows));
+  const std::vector<PairNode> few = some_of(nodes, kVeryFewRows);
+  const std::vector<PairPeak> scores = scored(model, candidates, few);
   std::vector<PairPeak> found = climbed(model, best_of_neighbours(model, candidates, scores), some_of(nodes, kFewRows));
   if (model.effort != Effort::whole || model.passings[0] == nullptr) return found;
   const double width = model.perimeter() / static_cast<double>(candidates.cells);
@@ -403,7 +419,7 @@ std::vector<PairPeak> peaks_of(const PairModel& model, const PairCandidates& can
   if (!is_wide && nodes.size() <= kVeryFewRows) return found;
   const std::vector<PairPeak> by_all =
       climbed(model,
-              is_wide ? scored_within(model, candidates, nodes)
+              is_wide ? places_left(rescored(model, scored_within(model, candidates, few), nodes))
                       : best_of_neighbours(model, candidates, rescored(model, scores, nodes)),
               nodes);
   found.insert(found.end(), by_all.begin(), by_all.end());

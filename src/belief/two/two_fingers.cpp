@@ -8,7 +8,7 @@
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
 #include "belief/two/pair_rows.hpp"
-#include "roll/noise_kinds.hpp"
+#include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 
 // Notation:

@@ -1,4 +1,4 @@
-#include "cells.hpp"
+#include "bounds.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -9,8 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <vector>
-
-#include "profile.hpp"
 
 // Notation, as in docs/identify.md, "How parts are ruled out":
 //   N, i            cells of equal length, and the one that the roll starts in; four at a time: `Four`

@@ -1,4 +1,4 @@
-#include "clues.hpp"
+#include "bounds.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "profile.hpp"
+#include "bounds.hpp"
 
 #include <algorithm>
 #include <bit>

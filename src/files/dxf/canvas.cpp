@@ -1,4 +1,4 @@
-#include "files/dxf/canvas.hpp"
+#include "files/dxf/read.hpp"
 
 #include <fmt/format.h>
 

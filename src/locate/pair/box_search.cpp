@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "line_search.hpp"
-#include "locate/corner_sets.hpp"
+#include "locate/searches.hpp"
 #include "outline/turn.hpp"
-#include "range.hpp"
+#include "plane_curve.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "box_side.hpp"
-#include "pair_find.hpp"
+#include "components.hpp"
 #include "plane_curve.hpp"
 
 namespace rollfix::locating {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "locate/corner_sets.hpp"
+#include "locate/searches.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:
@@ -19,7 +19,7 @@
 //   within_k        tolerance (1 + |B_k' / B_g'|): what r_k may be, for the guide may be off as well
 // (A is the free finger's curve here, whichever finger that is.)
 // Follows eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Two fingers", steps 4 and 5. Overlaps are
-// found in line_overlaps.cpp.
+// found in family_line.cpp.
 // Idea: where both curves run alongside each other J is singular, but one equation is steep. It leaves one variable,
 // and the others are searched along x by branch and prune, with bounds on their slopes, as root_search.cpp does.
 namespace rollfix::locating {

@@ -3,10 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "box_side.hpp"
-#include "pair_find.hpp"
+#include "components.hpp"
 #include "plane_curve.hpp"
-#include "range.hpp"
 
 namespace rollfix::locating {
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "components.hpp"
-#include "pair_find.hpp"
 
 // Notation:
 //   piece           a connected set of pairs (s, t) within the tolerance: a box, a convex `hull`, or a `line`, off by

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "locate/corner_sets.hpp"
+#include "locate/searches.hpp"
 
 // Notation:
 //   s, L_k          first contact, length of reading k: `equations_.lengths`. Contact 0 is at s, contact k + 1 at s +

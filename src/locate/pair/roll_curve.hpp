@@ -11,7 +11,6 @@
 #include "part/cursor.hpp"
 #include "part/turning_range.hpp"
 #include "plane_curve.hpp"
-#include "range.hpp"
 #include "rollfix/part.hpp"
 
 namespace rollfix::locating {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "locate/corner_sets.hpp"
+#include "locate/searches.hpp"
 #include "part/cursor.hpp"
 #include "part/part_data.hpp"
 
