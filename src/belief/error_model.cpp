@@ -79,6 +79,13 @@ namespace {
 // No sensor is better than this: a share of the perimeter, and radians. It keeps variances above what rounding does.
 constexpr double kLeastContactShare = 1e-7;
 constexpr double kLeastAngle = 1e-7;
+// Where nothing is said of the contact, it is no better than this: a row at a corner would tell the start to 1e-7, and
+// a grid that fine about each corner of each row takes a gigabyte. Increments add up: they stay exact.
+constexpr double kUnstatedContactShare = 1e-5;
+
+double least_contact_share(const Noise& noise, LogKind kind) {
+  return noise.contact > 0 || kind == LogKind::increments ? kLeastContactShare : kUnstatedContactShare;
+}
 // What a row of increments is off on its own: the part of an increment that is under way when it is read.
 constexpr double kShareUnderWay = 0.25;
 
@@ -111,7 +118,8 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
       bare(options.bare),
       noise(options.noise),
       scale_sd(options.scale_sd),
-      contact_variance(square(std::max(options.noise.contact, kLeastContactShare * the_perimeter))),
+      contact_variance(
+          square(std::max(options.noise.contact, least_contact_share(options.noise, log_kind) * the_perimeter))),
       angle_variance(square(std::max(options.noise.angle, kLeastAngle))),
       row_share(log_kind == LogKind::increments ? kShareUnderWay : 1),
       perimeter(the_perimeter),
@@ -172,7 +180,8 @@ double SensorErrors::rows_alike(double rows, double range) const {
   return is_farther ? std::max(1.0, rows * noise.part.alike / boundary) : std::max(1.0, rows);
 }
 
-/// P0 of x = (offset of length, offset of turn, scale, a gyroscope's scale, its bias, the first centre's x and y).
+/// P0 of x = (offset of length, offset of turn, scale, a gyroscope's scale, its bias, the first centre's x and y,
+/// offset of turn at the first contact).
 ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter)
     : sensor_(options, kind, perimeter) {
   if (kind == LogKind::contact) {
@@ -191,6 +200,9 @@ ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger
   start_(3, 3) = square(sensor_.noise.gyro);
   start_(4, 4) = sensor_.bare ? 0 : square(sensor_.noise.drift);
   start_(5, 5) = start_(6, 6) = centre_variance();
+  start_.row(7).head<2>() = start_.row(1).head<2>();
+  start_.col(7).head<2>() = start_.col(1).head<2>();
+  start_(7, 7) = start_(1, 1);
 }
 
 /// 0 to 1; 0 where lengths are exact.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory_resource>
+#include <numbers>
 #include <vector>
 
 #include "rollfix/belief.hpp"
@@ -108,8 +109,9 @@ struct SensorErrors {
 };
 
 /// Errors that a whole roll of one finger shares: of a length and of a turn as measured, of the scale of lengths, of a
-/// gyroscope's scale, of its rate (its bias), and of the centre as it is known at the first contact, x and y.
-inline constexpr int kShared = 7;
+/// gyroscope's scale, of its rate (its bias), of the centre as it is known at the first contact, x and y, and of the
+/// turn as it was offset at the first contact: what gathers on the way is in the second alone.
+inline constexpr int kShared = 8;
 using Shared = Eigen::Matrix<double, kShared, 1>;
 using SharedCovariance = Eigen::Matrix<double, kShared, kShared>;
 /// The first of them, which lengths and turns tell of, ...
@@ -150,6 +152,8 @@ class ErrorModel {
   }
   /// Over less than this length what gathers is one and the same.
   double patch() const { return sensor_.patch(); }
+  /// Of the boundary as a whole.
+  double turn_per_length() const { return 2 * std::numbers::pi / sensor_.perimeter; }
   /// Angles are too noisy for one look at every row to do.
   bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle || has_gyroscope_scale() || has_bias(); }
   bool has_gyroscope_scale() const { return start_(3, 3) > 0; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "belief/posterior.hpp"
 #include "outline/turn.hpp"
@@ -294,6 +295,8 @@ namespace {
 // kWavy times as much as a circle nodes are shorter by the square of that: a mean over a bend and back is off both.
 constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
+// A group in which the finger goes so many times as far as in most is several nodes.
+constexpr double kFar = 1;
 
 // A rest ends where two groups in a row are off it by more than 3 standard deviations, the same way, or one by as much
 // as no noise is; or where all of them have a trend. As chi-squares of two degrees of freedom, the length's and the
@@ -376,15 +379,15 @@ void Nodes::add(const Row& row) {
 bool Nodes::are_too_many() const {
   if (!by_walk_) return false;
   const double many = std::max(kFewestNodes, finer_ * travel_.so_far() / (kPatches * errors_.patch()));
-  return static_cast<double>(nodes_.size()) > many && walk_.modes() > 0.5 * many;
+  return static_cast<double>(nodes_.size() - parts_) > many && walk_.modes() > 0.5 * many;
 }
 
-/// Fewer than `group_` at the end of the roll.
-JoinedRows Nodes::group(std::size_t begin) const {
-  const std::pmr::vector<JoinedRows>& blocks = blocks_.complete();
-  JoinedRows rows = blocks[begin];
-  const std::size_t end = std::min(begin + group_, blocks.size());
-  for (std::size_t k = begin + 1; k < end; ++k) rows = blocks_.joined(rows, blocks[k]);
+/// Fewer at the end of the roll.
+JoinedRows Nodes::joined(std::size_t begin, std::size_t blocks) const {
+  const std::pmr::vector<JoinedRows>& all = blocks_.complete();
+  JoinedRows rows = all[begin];
+  const std::size_t end = std::min(begin + blocks, all.size());
+  for (std::size_t k = begin + 1; k < end; ++k) rows = blocks_.joined(rows, all[k]);
   return rows;
 }
 
@@ -394,6 +397,7 @@ void Nodes::make_again() {
   ++generation_;
   nodes_.clear();
   walk_ = {};
+  parts_ = 0;
   travel_.restart();
   seconds_ = 0;
   taken_ = 0;
@@ -404,18 +408,20 @@ void Nodes::make_again() {
 /// A group that goes on with a rest becomes part of one node; else a node of its own.
 void Nodes::complete_node(const JoinedRows& rows) {
   const double travelled = travel_.add(mark(taken_, rows));
-  taken_ += group_;
-  if (!joins_rests()) return push(rows, travelled);
+  way_ = std::max(way_, travel_.so_far());
+  const std::size_t begin = std::exchange(taken_, taken_ + group_);
+  if (!joins_rests()) return push_group(begin, group_, rows, travelled);
   if (!rest_.goes_on(rows, node_of(rows, travelled).own)) {
     if (is_held_) push(rest_.rows(), rest_.travelled());
     begin_rest();
   }
   rest_.add(rows, rest_.groups() == 0 ? rows : blocks_.joined(rest_.rows(), rows), travelled);
   const bool is_rest = rest_.groups() >= (nodes_before_ == 0 ? kShortestWhole : kShortestRest);
-  if (!is_rest) return push(rows, travelled);
+  if (!is_rest) return push_group(begin, group_, rows, travelled);
   if (is_held_) return;
   // Its nodes so far are one.
   is_held_ = true;
+  parts_ -= nodes_.size() - nodes_before_ - (rest_.groups() - 1);
   nodes_.resize(nodes_before_);
   walk_ = walk_before_;
   seconds_ = seconds_before_;
@@ -428,6 +434,28 @@ void Nodes::begin_rest() {
   nodes_before_ = nodes_.size();
   walk_before_ = walk_;
   seconds_before_ = seconds_;
+}
+
+/// Its mean says where rows are that are spread evenly over their way; others it puts beside a bend or a corner.
+bool Nodes::goes_far(const JoinedRows& rows) const {
+  const double per_length = tilt_ + errors_.turn_per_length();
+  const double usual = way_ * rows_of_node() / static_cast<double>(rows_);
+  return std::sqrt(12 * spread_of(rows)) > kFar * per_length * usual;
+}
+
+/// By halves. What was travelled is shared out by how far the means are apart.
+void Nodes::push_group(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled) {
+  if (blocks == 1 || !goes_far(rows)) return push(rows, travelled);
+  const std::size_t half = blocks / 2;
+  const JoinedRows first = joined(begin, half);
+  const JoinedRows second = joined(begin + half, blocks - half);
+  const double before = nodes_.empty() ? 0 : nodes_.back().turn + tilt_ * nodes_.back().length;
+  const double to_first = std::abs(first.tilted(tilt_) - before);
+  const double apart = std::abs(second.tilted(tilt_) - first.tilted(tilt_));
+  const double share = to_first + apart > 0 ? to_first / (to_first + apart) : 0.5;
+  push_group(begin, half, first, share * travelled);
+  push_group(begin + half, blocks - half, second, (1 - share) * travelled);
+  ++parts_;
 }
 
 void Nodes::push(const JoinedRows& rows, double travelled) {

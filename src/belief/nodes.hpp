@@ -256,6 +256,9 @@ class Nodes {
   bool joins_rests() const { return by_walk_ && !errors_.gathers_rows() && errors_.centre_variance() <= 0; }
   /// One more complete node.
   void push(const JoinedRows& rows, double travelled);
+  /// A group as one node, or as several where the finger goes much farther in it than in others.
+  void push_group(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled);
+  bool goes_far(const JoinedRows& rows) const;
   /// None of the groups so far is part of it.
   void begin_rest();
   /// What has gathered, and how well the rows together would know one length and one turn.
@@ -272,7 +275,8 @@ class Nodes {
   /// There are more nodes than serve, for as far as the finger has travelled and for what has gathered on the way.
   bool are_too_many() const;
   /// Of the block that begins here and those after it.
-  JoinedRows group(std::size_t begin) const;
+  JoinedRows group(std::size_t begin) const { return joined(begin, group_); }
+  JoinedRows joined(std::size_t begin, std::size_t blocks) const;
   void complete_node(const JoinedRows& rows);
   void make_again();
   Node node_of(const JoinedRows& rows, double travelled) const;
@@ -297,6 +301,8 @@ class Nodes {
   Rest rest_;              // of the last groups
   bool is_held_ = false;   // it is a node that grows: not among the complete ones
   std::size_t taken_ = 0;  // blocks, by the nodes and the rest
+  std::size_t parts_ = 0;  // nodes beyond one for each group
+  double way_ = 0;         // that the finger has gone, length
   // As they were when it began.
   std::size_t nodes_before_ = 0;
   Walk walk_before_;

@@ -34,7 +34,8 @@ Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_no
   Slack slack;
   slack.travel = kTouchSigmas * travel;
   slack.angle = kTouchSigmas * (errors.angle + errors.travel * contact.finger_curvature);
-  slack.place = kTouchSigmas * (errors.place + errors.angle * contact.lever.norm() + travel);
+  const double arm = errors.arm_share * errors.stretch + errors.angle;
+  slack.place = kTouchSigmas * (errors.place + arm * contact.lever.norm() + travel);
   return slack;
 }
 

@@ -45,6 +45,7 @@ HeldErrors errors_with(const Noise& noise, const Finger& finger, bool has_centre
   errors.has_place = has_centre && noise.position > 0;
   errors.travel = std::max(noise.contact, kLeastHeldTravel * perimeter);
   errors.stretch = std::hypot(noise.slip, radius_share(noise, finger), noise.part.length);
+  if (errors.stretch > 0) errors.arm_share = std::pow(radius_share(noise, finger) / errors.stretch, 2);
   errors.angle = std::hypot(std::max(noise.angle, kLeastHeldAngle), noise.part.turn);
   errors.place = noise.position;
   return errors;
@@ -72,6 +73,14 @@ HeldErrors errors_by_digits(const HoldProblem& problem, const Log& log, const Fi
   return errors;
 }
 
+/// How much too near to the centre a contact is on average, in the world: its normal is measured, and an error turns
+/// the arm, by n along the finger and by a of the orientation: r (1 - cos) of a disk. To second order.
+Vec2 too_near(const HeldContact& contact, double normal, const HeldErrors& errors) {
+  const Vec2 outward(std::cos(normal), std::sin(normal));
+  return 0.5 * (errors.travel * errors.travel * contact.finger_curvature * outward +
+                errors.angle * errors.angle * contact.lever);
+}
+
 /// Appends one finger's contact to each row.
 void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
   const FingerRows& rows = log.fingers.front();
@@ -80,12 +89,14 @@ void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
     HeldContact contact;
     contact.travelled = reading_between(finger, contacts.front(), contacts[row]).length[0];
     // The normal u + psi points into the part, a quarter turn to the left of the tangent.
-    contact.tangent = normal_direction(finger, contacts[row]) - 0.5 * std::numbers::pi;
+    const double normal = normal_direction(finger, contacts[row]);
+    contact.tangent = normal - 0.5 * std::numbers::pi;
     // The centre of a finger that touches at the origin, taken back: from the centre to the contact.
     contact.lever = -centre_of(finger, Vec2::Zero(), contacts[row]);
     if (!rows.x.empty()) contact.at = Vec2(rows.x[row], rows.y[row]) + contact.lever;
     contact.orientation = contacts[row].psi;
     contact.finger_curvature = finger.curvature(contacts[row].u);
+    if (held.has_noise) contact.at += too_near(contact, normal, held.errors.back());
     held.rows[row].contacts.push_back(contact);
   }
 }

@@ -40,6 +40,7 @@ struct HeldErrors {
   bool has_place = false;  // x and y are evidence
   double travel = 0;       // of the contact along the boundary, length
   double stretch = 0;      // of all lengths, per length: slip and the radius
+  double arm_share = 0;    // of the stretch's variance, as far as it is the radius: that stretches the arm as well
   double angle = 0;        // of psi, radians; without noise of u + psi
   double place = 0;        // of x and y each; without noise of the distance
 };

@@ -189,7 +189,8 @@ double HoldFit::p_of_moved(const std::vector<Way>& ways, const HeldState& state)
   }
   // The same rows with contacts moved by the estimate, fitted anew from the state.
   const HeldState without = HoldFit(part_, rows, wheels_).fit(state);
-  return std::min(1.0, p_of(state.square - without.square, 1) * static_cast<double>(ways.size()));
+  // By the cost: where contacts move towards a corner, angles weigh less and the squares fall for nothing.
+  return std::min(1.0, p_of(state.cost - without.cost, 1) * static_cast<double>(ways.size()));
 }
 
 /// Lengths of all fingers, or of one, off by one factor: contacts move by shares of what they travelled.

@@ -91,8 +91,11 @@ BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
     place.bend += corner.turn * (bell - 0.5 * d * at + mean * d * at) / (all * sd);
     // At the corner Theta is uniform over J: its mean square is J^2 / 3.
     place.variance += corner.turn * corner.turn * ((behind + at / 3) / all - mean * mean);
-    // The mean of 1 - cos a over a uniform on [0, J]; a concave corner has no pivot.
-    if (corner.turn > 0) place.pivoting += at / all * (1 - std::sin(corner.turn) / corner.turn);
+    // A concave corner has no pivot: `at` is 0.
+    if (at / all > place.pivoting) {
+      place.pivoting = at / all;
+      place.past = past;
+    }
   }
   return place;
 }
@@ -123,7 +126,7 @@ double HoldFit::pivot_length(const HeldContact& contact) const {
   return 1 / std::max(contact.finger_curvature, 2 * std::numbers::pi / part_.perimeter());
 }
 
-HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) const {
+HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::size_t finger) const {
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   const HeldErrors& errors = rows_.errors[finger];
   // A blur of 0 would leave corners without a slope.
@@ -131,6 +134,7 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   Sight sight;
   sight.at = rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
   sight.s = s;
+  sight.stretch = stretch;
   if (errors.has_place) sight.point = point_about(part_, s);
   // Lawson's weights, of best_worst, times the rows that this one is the mean of.
   const double times = weight(row, finger) * rows_.rows[row].weight;
@@ -175,10 +179,8 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   // An error a of the orientation moves q by a J w and turns the tangent by a.
   const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
   Eigen::Matrix3d covariance = angle * lever * lever.transpose();
-  // At a corner n moves the contact along the finger, which is not along the part.
-  const double place = errors.place * errors.place + sight.at.pivoting * errors.travel * errors.travel;
-  covariance(0, 0) += place;
-  covariance(1, 1) += place;
+  covariance(0, 0) += errors.place * errors.place;
+  covariance(1, 1) += errors.place * errors.place;
   if (is_bent) {
     const Eigen::Matrix3d bare = covariance / rows_.rows[row].weight;
     sight.bare_information = bare.inverse();
@@ -198,7 +200,9 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
 std::vector<HoldFit::Sight> HoldFit::sights_at(const HeldState& state, std::size_t row) const {
   std::vector<Sight> sights;
   sights.reserve(fingers());
-  for (std::size_t k = 0; k < fingers(); ++k) sights.push_back(sight(place_of(state, row, k), row, k));
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    sights.push_back(sight(place_of(state, row, k), stretch_of(state, k), row, k));
+  }
   return sights;
 }
 
@@ -262,8 +266,27 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
   look.log_size = look.bare_log_size + std::log1p(variance * bare(2, 2));
 }
 
+/// A finger that pivots touches the corner, and is felt past it by n: along the finger, not along the side as p(s) is.
+/// Both by how probable they are; what that leaves open is in C.
+void HoldFit::pivot(Look& look, double finger_tangent, double side_tangent) {
+  const Vec2 side(std::cos(side_tangent), std::sin(side_tangent));
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+  apart.head<2>() = Vec2(std::cos(finger_tangent), std::sin(finger_tangent)) - side;
+  const double share = look.at.pivoting;
+  look.residual -= share * look.at.past * apart;
+  look.by_place -= share * apart;
+  look.by_pose.topRightCorner<2, 1>() += share * look.at.past * Vec2(-side.y(), side.x());
+  const double open = share * (1 - share) * look.at.past * look.at.past;
+  // Sherman and Morrison's formula, and that of the determinant.
+  const Eigen::Vector3d pull = look.information * apart;
+  const double size = 1 + open * apart.dot(pull);
+  look.information -= open / size * pull * pull.transpose();
+  look.log_size += std::log(size);
+}
+
 HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t finger) const {
-  return look(sight(place_of(state, row, finger), row, finger), state.placed[row], row, finger);
+  const Sight seen = sight(place_of(state, row, finger), stretch_of(state, finger), row, finger);
+  return look(seen, state.placed[row], row, finger);
 }
 
 /// d and r of one contact in this pose, with their derivatives by A, phi and s.
@@ -281,14 +304,20 @@ HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_
   if (rows_.errors[finger].has_place) {
     const Pose turn{0, 0, placed.heading};
     const Vec2 arm = turn.turned(sight.point - middle_);
-    // d = q - A - R(phi) (p - m).
-    look.residual.head<2>() = contact.at - placed.middle - arm;
+    // d = q - A - R(phi) (p - m), q with the arm that the radius has then.
+    look.residual.head<2>() = contact.at + sight.stretch * by_stretch(row, finger) - placed.middle - arm;
     look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
     look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
     look.by_place.head<2>() = -turn.turned(Vec2(std::cos(sight.at.side), std::sin(sight.at.side)));
   }
   // Where the normal turns unevenly over n.
   if (sight.bare_information) bend(look, contact.finger_curvature);
+  if (sight.at.pivoting > 0 && rows_.errors[finger].has_place) {
+    pivot(look, contact.tangent, placed.heading + sight.at.side);
+  }
+  // ds / de = -L at e = 0, of s = z + L / (1 + e).
+  look.by_stretch = -contact.travelled * look.by_place;
+  if (rows_.errors[finger].has_place) look.by_stretch.head<2>() += by_stretch(row, finger);
   return look;
 }
 
@@ -319,21 +348,18 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     sum.blur_size += one.blur_size;
     if (!with_unknowns) continue;
     const auto k = static_cast<Eigen::Index>(finger);
-    const Eigen::Vector3d mixed = weighed * one.by_place;
-    const Eigen::Vector3d places = one.information * one.by_place;
-    const double own = one.by_place.dot(places);
-    const double slope = -places.dot(one.residual);
-    // ds / de = -L at e = 0, of s = z + L / (1 + e).
-    const double by_stretch = -rows_.rows[row].contacts[finger].travelled;
-    sum.mixed.col(k) += mixed;
-    sum.own(k, k) += own;
-    sum.own_slope(k) += slope;
+    // An unknown by the derivatives of the measurement by it.
+    const auto add = [&](Eigen::Index unknown, const Eigen::Vector3d& by) {
+      sum.mixed.col(unknown) += weighed * by;
+      sum.own(unknown, unknown) += by.dot(one.information * by);
+      sum.own_slope(unknown) -= by.dot(one.information * one.residual);
+    };
+    add(k, one.by_place);
     if (!has_stretches_) continue;
-    sum.mixed.col(count + k) += by_stretch * mixed;
-    sum.own(count + k, count + k) += by_stretch * by_stretch * own;
-    sum.own(k, count + k) += by_stretch * own;
-    sum.own(count + k, k) += by_stretch * own;
-    sum.own_slope(count + k) += by_stretch * slope;
+    add(count + k, one.by_stretch);
+    const double both = one.by_place.dot(one.information * one.by_stretch);
+    sum.own(k, count + k) += both;
+    sum.own(count + k, k) += both;
   }
   for (std::size_t wheel = 0; wheel < wheels(); ++wheel) add_pin(state, row, wheel, with_unknowns, sum);
   if (row == 0 && rows_.pose) add_pose_prior(state.placed[row], sum);

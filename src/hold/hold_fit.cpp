@@ -16,7 +16,7 @@
 //   s = z + L / (1 + e)   where the contact is at a row: `place_of`
 //   (A, phi)        the part at a row: world(p) = A + R(phi) (p - m): `Placed`; m: `middle_`
 //   d, r            residuals q - world(p(s)) and tau - phi - Theta(s): ContactResidual
-//                   wheels add theirs, see hold_pins.cpp
+//                   wheels add theirs, see wheel_pins.cpp
 //   C               their covariance: position, the orientation by its lever w, and the contact's error n, which moves
 //                   the normal by (kappa + kappa_finger) n and nothing else
 //   P, B, M         blocks of the normal matrix: of a row's pose, of pose and unknowns, of the unknowns; M - B^T P^-1 B
@@ -109,8 +109,7 @@ double HoldFit::prior_precision(Eigen::Index unknown) const {
 /// s = z + L / (1 + e), unwrapped.
 double HoldFit::place_of(const HeldState& state, std::size_t row, std::size_t finger) const {
   const auto k = static_cast<Eigen::Index>(finger);
-  const double stretch = has_stretches_ ? state.unknowns(static_cast<Eigen::Index>(fingers()) + k) : 0;
-  return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch);
+  return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch_of(state, finger));
 }
 
 /// A pose from which a row's fit can start: its heading by the longest chord between contacts with places, else by

@@ -99,6 +99,14 @@ class HoldFit {
   ContactResidual residual(const HeldState& state, std::size_t row, std::size_t finger) const;
   /// The largest residual as a share of what it may be: without noise at most 1 fits.
   double worst(const HeldState& state) const;
+  /// What a contact in the world gains by its finger's stretch, per e: with a wrong radius the arm is too long.
+  Vec2 by_stretch(std::size_t row, std::size_t finger) const {
+    return -rows_.errors[finger].arm_share * rows_.rows[row].contacts[finger].lever;
+  }
+  /// How much longer a finger's lengths are than measured, as a share: e.
+  double stretch_of(const HeldState& state, std::size_t finger) const {
+    return has_stretches_ ? state.unknowns(static_cast<Eigen::Index>(fingers() + finger)) : 0;
+  }
   /// Where a contact is by its first contact and length alone, unwrapped: z + L / (1 + e).
   double place_of(const HeldState& state, std::size_t row, std::size_t finger) const;
   /// With noise: the error n of a row's contact along the boundary, as its normal tells it. The contact is at
@@ -132,12 +140,13 @@ class HoldFit {
 
  private:
   struct Sight;
-  Sight sight(double s, std::size_t row, std::size_t finger) const;
+  Sight sight(double s, double stretch, std::size_t row, std::size_t finger) const;
   std::vector<Sight> sights_at(const HeldState& state, std::size_t row) const;
   struct Look;
   Look look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const;
   Look look(const HeldState& state, std::size_t row, std::size_t finger) const;
   void bend(Look& look, double finger_curvature) const;
+  static void pivot(Look& look, double finger_tangent, double side_tangent);
   struct RowEquations;
   RowEquations equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
                          bool with_unknowns) const;
@@ -230,8 +239,8 @@ struct BlurredPlace {
   double bend = 0;          // its derivative by s, corners included
   double curvature = 0;     // without corners
   double variance = 0;      // of Theta, by corners
-  double pivoting = 0;      // how probable it is that the finger pivots at a corner there, times how far the ...
-                            // ... finger's own tangent is then off the side's: of a square, per coordinate
+  double pivoting = 0;      // how probable it is that the finger pivots, at the likeliest corner there, ...
+  double past = 0;          // ... and how far the place is past that, length
   bool has_corner = false;  // near enough to be seen
   double half_turn = 0;     // without blur: Theta is within this of `angle`
 };
@@ -269,6 +278,7 @@ struct HoldFit::Sight {
   double angles = 1;                                      // numbers that the angle counts as
   double turn_variance = 0;                               // of r without n, with what a corner adds
   double s = 0;                                           // the contact's place, z + L / (1 + e)
+  double stretch = 0;                                     // e
   // Where the normal turns unevenly over the contact's error n: without n.
   std::optional<Eigen::Matrix3d> bare_information{};
   double bare_log_size = 0;
@@ -278,8 +288,9 @@ struct HoldFit::Sight {
 /// A contact's residuals with their derivatives: of d (two rows) and of r.
 struct HoldFit::Look : Sight {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();   // a row of each residual; columns A.x, A.y, phi
-  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();  // by s
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();     // a row of each residual; columns A.x, A.y, phi
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();    // by s
+  Eigen::Vector3d by_stretch = Eigen::Vector3d::Zero();  // by e, s moving along
 };
 
 /// A wheel's residuals, of closure, encoder and line of force, with their derivatives; what is not measured is 0.

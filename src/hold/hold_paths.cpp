@@ -7,7 +7,7 @@
 
 #include "hold_fit.hpp"
 
-// Notation as in hold_pins.cpp:
+// Notation as in wheel_pins.cpp:
 //   phi_k, sigma_k  the part's heading at row k in one of its poses, and its standard deviation there
 //   F_k             what row k costs in it
 //   h               how far the part turns from row to row, by the smallest steps between their poses; more, where they

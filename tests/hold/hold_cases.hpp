@@ -34,6 +34,7 @@ struct Holding {
   double angle_sd = 0;  // radians
   bool centres = true;
   double slip_sd = 0;
+  double radius_sd = 0;  // of each radius, as a share of it
 };
 
 struct HoldCase {
@@ -199,16 +200,17 @@ inline bool are_apart(const std::vector<Vec2>& one, const std::vector<Vec2>& oth
 /// Fingers that enter neither the part nor each other.
 inline HoldCase random_hold(const Part& part, const Holding& holding, std::mt19937_64& generator) {
   const double size = diagonal(part);
-  const double radius = holding.radius * size;
+  const double said = holding.radius * size;
   const double length = holding.length * part.perimeter();
   const std::vector<Vec2> boundary = dense(part);
-  HoldCase result{HoldProblem{part, {}, {rollfix::disk(radius)}}, {}, {}, {}, {}};
+  HoldCase result{HoldProblem{part, {}, {rollfix::disk(said)}}, {}, {}, {}, {}};
   result.first = {uniform(generator, -size, size), uniform(generator, -size, size),
                   uniform(generator, -std::numbers::pi, std::numbers::pi)};
   result.last = moved(result.first, 1, size);
   std::vector<std::vector<Vec2>> tracks;
   while (result.problem.logs.size() < holding.fingers) {
     const int direction = uniform(generator, -1, 1) > 0 ? 1 : -1;
+    const double radius = holding.radius_sd > 0 ? said * (1 + normal(generator, holding.radius_sd)) : said;
     const Way way(part, radius, uniform(generator, 0, part.perimeter()), direction);
     if (!is_free_way(part, way, length, radius, boundary)) continue;
     const double slowness = uniform(generator, 0.7, 1.6);
@@ -228,6 +230,7 @@ inline HoldCase random_hold(const Part& part, const Holding& holding, std::mt199
     noise.contact = holding.contact_sd * size;
     noise.angle = holding.angle_sd;
     noise.slip = holding.slip_sd;
+    noise.radius = holding.radius_sd * said;
     noise.position = holding.centres ? holding.place_sd * size : 0;
     result.problem.noise = noise;
   }

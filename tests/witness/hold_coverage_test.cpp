@@ -119,6 +119,23 @@ TEST(HoldCoverage, FourFingersWithoutCentresOnSmoothParts) { expect_calibrated("
 TEST(HoldCoverage, ThreeFingersThatSlipOnSmoothParts) {
   expect_calibrated("3, x y, slip", noisy(3, true, 0.02), smooth);
 }
+TEST(HoldCoverage, ThreeFingersWithCentresKnownBetterThanContacts) {
+  Holding holding = noisy(3, true);
+  holding.place_sd = 0.1 * holding.contact_sd;
+  expect_calibrated("3, x y ten times as good", holding, smooth);
+}
+TEST(HoldCoverage, ThreeFingersWithCentresAndRadiiThatAreNotKnown) {
+  Holding holding = noisy(3, true);
+  holding.radius_sd = 0.05;
+  expect_calibrated("3, x y, radii to 5 %", holding, smooth);
+}
+TEST(HoldCoverage, ThreeFingersWithCentresThatPivotAtCorners) {
+  Holding holding = noisy(3, true);
+  holding.length = 0.25;
+  holding.rows = 100;
+  expect_calibrated("3, x y, over corners", holding,
+                    [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); });
+}
 TEST(HoldCoverage, RobustThreeFingersWithCentresAndOutliers) {
   expect_calibrated("3, x y, robust, 2 % outliers", noisy(3, true), smooth, 0.02);
 }

@@ -43,20 +43,20 @@ Count count_of(std::size_t rows, const Noise& noise, int logs, bool robust = fal
 
 TEST(PairPivots, contradict_no_row_however_many_there_are) {
   for (const auto& [rows, logs] : {std::pair<std::size_t, int>{200, 12}, {2000, 6}, {20000, 3}}) {
-    const Count count = count_of(rows, {0.003, 0.005, 0, 0}, logs);
+    const Count count = count_of(rows, {0.003, 0.005, 0, 0}, test_count(logs));
     EXPECT_EQ(count.misfits, 0) << rows << " rows";
     EXPECT_EQ(count.listed, count.logs) << rows << " rows";
   }
 }
 
 TEST(PairPivots, of_a_finger_that_slips_may_begin_where_it_has_slipped_to) {
-  const Count count = count_of(300, {0.003, 0.005, 0.003, 0}, 12);
+  const Count count = count_of(300, {0.003, 0.005, 0.003, 0}, test_count(12));
   EXPECT_EQ(count.misfits, 0);
   EXPECT_EQ(count.listed, count.logs);
 }
 
 TEST(PairPivots, contradict_no_row_where_some_may_be_stray) {
-  const Count count = count_of(300, {0.003, 0.005, 0, 0}, 8, true);
+  const Count count = count_of(300, {0.003, 0.005, 0, 0}, test_count(8), true);
   EXPECT_EQ(count.misfits, 0);
   EXPECT_EQ(count.listed, count.logs);
 }

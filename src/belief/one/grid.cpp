@@ -11,12 +11,13 @@
 // Notation:
 //   w               tilted turning of the first contact, Theta + c s: the grid's coordinate; h is a cell's width
 //   d^2, log V      `Score::cost`, the rows' squared distance, and `log_volume`: -2 log L(w) = d^2 + log V
-//   F               `information`: the square of the rate at which d can change with w
+//   F               `information`; `steepness`: with every row as right, the square of the rate at which d can change
+//                   with w. Far from a peak robust rows count little, and F says nothing of how narrow it is
 //   heat            `fit_.widened`^2: log-likelihoods are divided by it where the rows fit badly
 //   prior           ds along the boundary, at a corner r dTheta (`corner_length_`): `log_prior`, by w
 //   fold            one of the m-th parts of a boundary that looks the same m times
 // Follows docs/belief.md, "The computation", from "The filters stand on a grid over w" on.
-// Idea: between two points d can't fall faster than sqrt(F) allows (times `kSlopeSafety`: a safety factor, not a
+// Idea: between two points d can't fall faster than its steepness allows (times `kSlopeSafety`: a safety factor, not a
 // proof). A cell that can't hold a share of exp(-`kNegligible`) of the mass is left; the others are halved until d
 // changes by less than `kFineStep`, and are integrated by Simpson's rule with the slopes at both ends (`weigh`).
 namespace rollfix::belief {
@@ -57,10 +58,10 @@ constexpr double kEven = 1e-6;
 // ... and one that changes by more, as a logarithm, is as good as all at its upper end.
 constexpr double kSteep = 600;
 
-/// How fast the distance d changes between two points, per w: the larger one of what the information at both ends
-/// allows and of the change from one end to the other.
+/// How fast the distance d changes between two points, per w: the larger one of what the steepness at both ends allows
+/// and of the change from one end to the other.
 double rate_of(const Score& lo, const Score& hi, double h) {
-  return std::max(std::sqrt(std::max(lo.information, hi.information)),
+  return std::max(std::sqrt(std::max(lo.steepness, hi.steepness)),
                   std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h);
 }
 
@@ -256,7 +257,7 @@ Score Grid::of_rows(const GridPoint& point) const {
   const Score prior = scorer_.narrow_prior(point);
   Score score = point.score;
   score.cost = std::max(0.0, score.cost - prior.cost);
-  score.information = std::max(0.0, score.information - prior.information);
+  score.steepness = std::max(0.0, score.steepness - prior.information);
   return at_least(score, point);
 }
 

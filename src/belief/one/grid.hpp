@@ -22,6 +22,7 @@ struct Score {
   double log_volume = 0;
   double slope = 0;  // of the logarithm of the likelihood, by w
   double information = 0;
+  double steepness = 0;
 
   double log_likelihood() const { return -0.5 * (cost + log_volume); }
 };

@@ -48,7 +48,7 @@ std::pmr::vector<double> in(std::pmr::memory_resource* memory, std::span<const d
 
 /// By the rows alone.
 Score score_of(const RollFilter& filter) {
-  return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
+  return {filter.cost(), filter.log_volume(), filter.slope(), filter.information(), filter.steepness()};
 }
 
 /// A pose prior as one sample more: the pose of the filter less the prior's, with both covariances. By the heading
@@ -185,6 +185,7 @@ void PointScorer::score(GridPoint& point, const Nodes& nodes) {
     point.score.cost += prior.cost;
     point.score.slope += prior.slope;
     point.score.information += prior.information;
+    point.score.steepness += prior.information;
   };
   if (options_.prior) add(prior_at(point.now.place()));
   if (options_.pose) add(score_of(*options_.pose, point.now));

@@ -11,7 +11,8 @@
 //   s(w), m         place on the boundary, m = ds/dw = 1 / (kappa + c): `TiltedPlace::s`, `slope`
 //   L, theta        a row's length and turn less the shared errors: `Corrected`
 //   x, P            errors that the roll shares (offset of length, offset of turn, scale of lengths, a gyroscope's
-//                   scale and bias, the first centre's x and y) and their covariance: `x_`, `p_`; dx/dw is `dx_`
+//                   scale and bias, the first centre's x and y, the first offset of turn) and their covariance: `x_`,
+//                   `p_`; dx/dw is `dx_`
 //   e, H            a row's equations and their derivative by x: `Equations::miss`, `by_errors`
 //   R, G            variance of the row on its own: `own`; what has gathered on the way: `walk_`, by x
 //   cost, volume    e^T S^-1 e and det S / det S_w of all rows, S = S_w + H P0 H^T, S_w = R + G: -2 log likelihood is
@@ -50,6 +51,7 @@ RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const Shared
       most_scale_(most_scale(start(2, 2))),
       most_gyroscope_scale_(most_scale(start(3, 3))),
       most_bias_(kMostErrorSigmas * std::sqrt(start(4, 4))),
+      first_turn_(start(1, 1)),
       p_(start) {}
 
 /// The next pass of Gauss-Newton: the filter begins anew, and keeps what this one found as its point of linearisation.
@@ -68,8 +70,8 @@ RollFilter RollFilter::again(const SharedCovariance& start, std::pmr::memory_res
 RollFilter::LinearisedAt RollFilter::linearised_at(double length) const {
   LinearisedAt about{x_, p_};
   if (!found_) return about;
-  // What the pass before found. The first centre's errors (5, 6) stay as this pass has them, with no covariance with
-  // the others.
+  // What the pass before found. The errors of the first contact (5 to 7) stay as this pass has them, with no covariance
+  // with the others.
   about.errors.head<kRolling>() = found_->errors;
   about.open.topRows<kRolling>().setZero();
   about.open.leftCols<kRolling>().setZero();
@@ -127,7 +129,8 @@ RollFilter::Equations RollFilter::equations_at(double w, const LinearisedAt& abo
   rows.beyond = end.beyond;
   rows.beyond_by_w = end.beyond_by_w;
   add_centre(end, w, about, node, rows);
-  // From the point of linearisation to the filter's estimate. The centre's x_5 and x_6 enter as they are in add_centre.
+  // From the point of linearisation to the filter's estimate. What is of the first contact enters as it is in
+  // add_centre.
   rows.miss += rows.by_errors.leftCols<kRolling>() * (x_ - about.errors).head<kRolling>();
   rows.own_variance += rows.by_own * matrix_of(node.own) * rows.by_own.transpose();
   return rows;
@@ -148,8 +151,8 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const LinearisedAt
   const double angle_first = w_ - tilt_ * place_.s;
   const double turn_by_w = 1 - tilt_ * end.slope;
   const double turn_by_w_first = 1 - tilt_ * place_.slope;
-  // The offset of turn is the error of the first normal, sign reversed (ErrorModel): it corrects the heading.
-  const double heading = centres_->normal + errors[1] - kQuarter - angle_first;
+  // The first offset of turn is the error of the first normal, sign reversed (ErrorModel): it corrects the heading.
+  const double heading = centres_->normal + errors[7] - kQuarter - angle_first;
   const Eigen::Matrix2d to_world = rotation(heading);
   const Eigen::Matrix2d of_arm = rotation(heading + angle + kQuarter);
   const Eigen::Matrix2d of_first_arm = rotation(heading + angle_first + kQuarter);
@@ -168,20 +171,21 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const LinearisedAt
   rows.miss.tail<2>() = way + by_w * beyond + centre_off - (node.felt.centre - centres_->first.centre);
   auto by_errors = rows.by_errors.bottomRows<2>();
   // Offset of length, offset of turn, scale of lengths, a gyroscope's scale and bias, then the first centre's own
-  // error.
+  // error, and the first normal's.
   by_errors.col(0) = -tilt_ * per_scale * by_w - of_first_arm * centres_->first.arm.per_length;
-  by_errors.col(1) = -by_w + turned_left(way);
+  by_errors.col(1) = -by_w;
   by_errors.col(2) = -tilt_ * roll.length * per_scale * by_w + centres_->radius_share * (arm - first_arm);
   by_errors.col(3) = -roll.sensed * by_w;
   by_errors.col(4) = -roll.seconds * by_w;
-  by_errors.rightCols<2>().setIdentity();
+  by_errors.middleCols<2>(5).setIdentity();
+  by_errors.col(7) = turned_left(way);
   rows.by_own.bottomRows<2>().col(0) = tilt_ * by_w + of_arm * node.felt.arm.per_length;
   rows.by_own.bottomRows<2>().col(1) = by_w;
   // At another w both contacts move. As Theta(s0) turns, the heading turns back by as much.
   rows.by_w.tail<2>() = by_w - by_w_first - turn_by_w_first * turned_left(way);
   // The mean of rows on a bend is beside it.
   const double bend = 0.5 * node.spread * std::abs(turn_by_w) * (by_w.norm() + 2 * tilt_ * end.slope);
-  const double variance = centres_->variance / std::max(1.0, node.worth) + bend * bend;
+  const double variance = centres_->variance / node.worth + bend * bend;
   rows.own_variance.bottomRightCorner<2, 2>().diagonal().array() += variance;
 }
 
@@ -282,7 +286,9 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   // -(innovation, d innovation / dw) in the metric S^-1, the information is the square of the latter.
   const Eigen::Matrix<double, kShared, 3> gain = weight * of_errors * inverse;
   slope_ += weight * (innovation.dot(inverse * by_w) + rows.beyond * rows.beyond_by_w);
-  information_ += weight * (by_w.dot(inverse * by_w) + square(rows.beyond_by_w));
+  const double steep = by_w.dot(inverse * by_w) + square(rows.beyond_by_w);
+  information_ += weight * steep;
+  steepness_ += steep;
   x_ += gain * innovation;
   dx_ += gain * by_w;
   p_ -= gain * of_errors.transpose();
@@ -309,7 +315,13 @@ RollFilter RollFilter::moved(const TiltedArc& arc, const Shift& shift) const {
 /// what all rows say of its errors. The covariance is J P J^T; `by_w` is the derivative of (x, y, heading).
 PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   const double angle = w_ - tilt_ * place_.s;
-  const double normal = centres_->normal + x_[1];
+  // The first normal's error: where centres tell it, on its own. Else of the offset at the end, which is that error and
+  // all that has gathered since, independent of each other, its share by their variances.
+  const bool is_told = centres_->variance > 0;
+  const double gathered = is_told ? 0 : on_the_way_.turn;
+  const double share = gathered > 0 ? first_turn_ / (first_turn_ + gathered) : 1;
+  const Eigen::Index which = is_told ? 7 : 1;
+  const double normal = centres_->normal + share * x_[which];
   PoseSpread spread;
   spread.mean.heading = normal - std::numbers::pi / 2 - angle;
   const Arm& first = centres_->first.arm;
@@ -321,11 +333,12 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   spread.mean.y = origin.y();
   Eigen::Matrix<double, 3, kShared> by_errors = Eigen::Matrix<double, 3, kShared>::Zero();
   by_errors.topRows<2>().col(0) = -(rotation(normal) * first.per_length);
-  by_errors.topRows<2>().col(1) = turned_left(arm - on_part);
+  Eigen::Vector3d by_normal(0, 0, 1);
+  by_normal.head<2>() = turned_left(arm - on_part);
+  by_errors.col(which) = share * by_normal;
   by_errors.topRows<2>().col(2) = -centres_->radius_share * arm;
-  by_errors.topRightCorner<2, 2>().setIdentity();
-  by_errors(2, 1) = 1;
-  spread.covariance = by_errors * p_ * by_errors.transpose();
+  by_errors.block<2, 2>(0, 5).setIdentity();
+  spread.covariance = by_errors * p_ * by_errors.transpose() + share * gathered * by_normal * by_normal.transpose();
   if (by_w != nullptr) {
     // Along the boundary the point p(s) moves by m along the tangent, and the heading turns back by dTheta.
     const double turn_by_w = 1 - tilt_ * place_.slope;

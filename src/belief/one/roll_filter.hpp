@@ -68,6 +68,8 @@ class RollFilter {
   /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
   double slope() const { return -slope_; }
   double information() const { return information_; }
+  /// The same if no row were an outlier: no faster can the distance change between here and elsewhere.
+  double steepness() const { return steepness_; }
   /// Of each equation's innovations.
   const std::array<Whiteness, 3>& whiteness() const { return whiteness_; }
   void record_to(Innovations& kept) {
@@ -139,6 +141,7 @@ class RollFilter {
   double most_scale_;                               // bounds on |x|: of the scale of lengths, ...
   double most_gyroscope_scale_;                     // ... of a gyroscope's scale, ...
   double most_bias_;                                // ... and of its bias
+  double first_turn_;                               // variance of the offset of turn before the first row
   Shared x_ = Shared::Zero();                       // the shared errors, ...
   SharedCovariance p_;                              // ... and their covariance
   Eigen::Matrix2d walk_ = Eigen::Matrix2d::Zero();  // of the first two, from what has gathered alone
@@ -150,6 +153,7 @@ class RollFilter {
   double gathered_ = 1;
   double slope_ = 0;  // of half the cost, by w
   double information_ = 0;
+  double steepness_ = 0;
   std::array<Whiteness, 3> whiteness_;
   double right_rows_ = 0;
   double right_cost_ = 0;

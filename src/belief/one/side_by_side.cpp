@@ -156,6 +156,7 @@ class SideBySide {
     copy(gathered_, filter.gathered_);
     copy(slope_, filter.slope_);
     copy(information_, filter.information_);
+    copy(steepness_, filter.steepness_);
   }
   /// Copies a filter's numbers into its lane.
   void load(std::size_t lane) {
@@ -229,7 +230,7 @@ class SideBySide {
   Walked whole_way_;                                // in the pass before
   LinearisedAt found_{all(0), Covariance::none()};  // by the pass before
   Four cost_ = walk00_, log_volume_ = walk00_, volume_ = Four::Ones(), log_gathered_ = walk00_,
-       gathered_ = Four::Ones(), slope_ = walk00_, information_ = walk00_;
+       gathered_ = Four::Ones(), slope_ = walk00_, information_ = walk00_, steepness_ = walk00_;
   Four w_ = walk00_, first_s_ = walk00_, first_slope_ = walk00_, is_first_ = Four::Ones();
 };
 
@@ -468,7 +469,9 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
       first_slope_ - lines.slope - lines.rest * rolled.by_lengths(dx_) + lines.slope * rolled.by_turns(dx_);
   const Four weight = trusted * lines.all;  // below 1 if it may be an outlier
   slope_ += weight * lines.beyond * lines.beyond_by_w - trusted * lines.miss * by_w;
+  const Four at_most = outliers_.share > 0 ? Four(1 / lines.all) : trusted;
   information_ += trusted * by_w * by_w + weight * lines.beyond_by_w * lines.beyond_by_w;
+  steepness_ += at_most * by_w * by_w + lines.beyond_by_w * lines.beyond_by_w;
   PerError of_errors;
   for (std::size_t k = 0; k < Errors; ++k) {
     // P H^T with H = (1 - c m) g - m h.

@@ -177,7 +177,7 @@ Contacts contacts_of(const PairModel& model, const StartPlaces& at, const RowPla
 }
 
 // ---- the equations
-// Notation, as in docs/two_fingers.md, "The errors"; w, S, D, m and e as in pair_contacts.cpp:
+// Notation, as in docs/two_fingers.md, "The errors"; w, S, D, m and e as above:
 //   x               errors that the roll shares (n_a0, n_b0, eps_a, eps_b, first turn)
 //   f, H, df/dw     a row's equations, `by_errors`, `by_start`
 //   without         the combination of e_a and e_b that does not depend on w_a: (m_b, -m_a), normalized
@@ -275,9 +275,9 @@ CentreRows centre_rows(const PairModel& model, const std::array<double, 2>& w, c
         sign * turning.dot(q_by_felt[finger]) - 0.5 * errors.normal_turn(finger);
   }
   // Errors of both centres along the chord, and across it over its length; of the normals' mean half of one's.
-  const double position = 2 * errors.centre_variance() / std::max(1.0, node.rows);
-  rows.variance << position,
-      position / (distance * distance) + 0.5 * errors.angle_variance() / std::max(1e-6, node.rows);
+  const double count = std::max(1e-6, node.rows);
+  const double position = 2 * errors.centre_variance() / count;
+  rows.variance << position, position / (distance * distance) + 0.5 * errors.angle_variance() / count;
   return rows;
 }
 
