@@ -5,7 +5,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "plan_handle.hpp"
+#include "handles.hpp"
 #include "rollfix/documents.hpp"
 #include "signals.hpp"
 

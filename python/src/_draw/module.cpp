@@ -1,5 +1,4 @@
 #include "handles.hpp"
-#include "plan_handle.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/solve.hpp"
 
