@@ -164,6 +164,19 @@ inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& e
   return fit;
 }
 
+// So unlikely is a place at which more rows are outliers than are right: what the few others fit, they may fit
+// anywhere.
+inline constexpr double kMostlyStray = 10;
+
+/// Of rows of which some may be outliers: by those that are right, so many of all. That one is far off contradicts
+/// nothing there.
+inline Fit robust_fit_of(double right_cost, double right_rows, double rows, const std::array<Whiteness, 3>& equations) {
+  Fit fit = fit_of(right_cost, right_rows, equations);
+  fit.row_sigmas = right_rows < 0.5 * rows ? kMostlyStray : 0;
+  fit.stray = rows - right_rows;
+  return fit;
+}
+
 /// Innovations that run so in the long term are alike as well. `step`: from one to the next the finger rolls so far; 0:
 /// neighbours can't be said to be alike.
 inline void add_trend(const Trend& trend, double step, Fit& fit) {

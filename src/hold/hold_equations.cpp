@@ -181,6 +181,10 @@ HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::si
   Eigen::Matrix3d covariance = angle * lever * lever.transpose();
   covariance(0, 0) += errors.place * errors.place;
   covariance(1, 1) += errors.place * errors.place;
+  // n^2 / (2 r) along the normal, whose mean is in `at`: its variance is half the square of n's over r.
+  const Vec2 normal(-std::sin(contact.tangent), std::cos(contact.tangent));
+  const double shorter = errors.travel * errors.travel * contact.finger_curvature;
+  covariance.topLeftCorner<2, 2>() += 0.5 * shorter * shorter * normal * normal.transpose();
   if (is_bent) {
     const Eigen::Matrix3d bare = covariance / rows_.rows[row].weight;
     sight.bare_information = bare.inverse();

@@ -15,6 +15,8 @@ namespace hold_coverage_test {
 
 using namespace hold_cases;
 
+constexpr int kMany = 30;  // where a mistake shows in a part of the contacts
+
 struct Tally {
   int cases = 0;
   int listed = 0;
@@ -86,9 +88,10 @@ Part flat(int number, std::mt19937_64& generator) { return number % 2 == 0 ? ran
 
 /// `outliers`: a share of all measurements that are anything.
 template <class PartOf>
-void expect_calibrated(const char* what, const Holding& holding, const PartOf& part_of, double outliers = 0) {
+void expect_calibrated(const char* what, const Holding& holding, const PartOf& part_of, double outliers = 0,
+                       int cases = 6) {
   Tally tally;
-  const int count = test_count(6);
+  const int count = test_count(cases);
   for (int number = 0; number < count; ++number) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(number) + 400);
     HoldCase one = random_hold(part_of(number, generator), holding, generator);
@@ -122,19 +125,20 @@ TEST(HoldCoverage, ThreeFingersThatSlipOnSmoothParts) {
 TEST(HoldCoverage, ThreeFingersWithCentresKnownBetterThanContacts) {
   Holding holding = noisy(3, true);
   holding.place_sd = 0.1 * holding.contact_sd;
-  expect_calibrated("3, x y ten times as good", holding, smooth);
+  expect_calibrated("3, x y ten times as good", holding, smooth, 0, kMany);
 }
 TEST(HoldCoverage, ThreeFingersWithCentresAndRadiiThatAreNotKnown) {
   Holding holding = noisy(3, true);
   holding.radius_sd = 0.05;
-  expect_calibrated("3, x y, radii to 5 %", holding, smooth);
+  expect_calibrated("3, x y, radii to 5 %", holding, smooth, 0, kMany);
 }
 TEST(HoldCoverage, ThreeFingersWithCentresThatPivotAtCorners) {
   Holding holding = noisy(3, true);
   holding.length = 0.25;
   holding.rows = 100;
-  expect_calibrated("3, x y, over corners", holding,
-                    [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); });
+  expect_calibrated(
+      "3, x y, over corners", holding,
+      [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }, 0, kMany);
 }
 TEST(HoldCoverage, RobustThreeFingersWithCentresAndOutliers) {
   expect_calibrated("3, x y, robust, 2 % outliers", noisy(3, true), smooth, 0.02);

@@ -151,9 +151,8 @@ void Grid::measure_fit(const Nodes& nodes) {
   farthest_ = scorer_.limit() - best->score.log_volume;
   const double freedom = nodes.freedom();
   // Of robust rows by those that are no outliers: their part of the cost, and their number.
-  fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
+  fit_ = options_.robust ? robust_fit_of(best->now.right_cost(), best->now.right_rows(), freedom, best->now.whiteness())
                          : fit_of(best->now.cost(), freedom, best->now.whiteness());
-  fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
   add_trend(trend_, step_between(nodes), fit_);
   fit_.widened *= scorer_.for_large_slip();
   fit_.prior_sigmas = scorer_.prior_sigmas(*best);

@@ -367,11 +367,13 @@ double RollFilter::variance_of_roll(const Corrected& roll, const LinearisedAt& a
   return std::max(0.0, variance);
 }
 
-/// To first order: s changes by m with w. At a corner m = 0, and so is the variance. Length^2.
+/// By the line through s over what is open of w, and what that misses: at a corner m = 0, but the contact may be beside
+/// it. Length^2.
 double RollFilter::variance_after(const Row& measured, const RowCovariance& own) const {
-  const double m = after(measured).slope;
   const Corrected roll = corrected(measured, x_);
-  return m * m * variance_of_roll(roll, {x_, p_}, own);
+  const double open = variance_of_roll(roll, {x_, p_}, own);
+  const SpreadPlace end = arc_->about(w_ + roll.turn + tilt_ * roll.length, open, 0);
+  return end.slope * end.slope * open + end.variance;
 }
 
 }  // namespace rollfix::belief

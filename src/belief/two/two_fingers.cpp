@@ -291,11 +291,10 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   for (const PairNode& node : question.nodes) freedom += std::min(1.0, node.rows) * (node.centres ? 3 : 1);
   const auto fit = [&](const PairPeak& peak, const Trend& trend = {}) {
     const PairScore& best = peak.score;
-    Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, best.whiteness)
+    Fit of_best = options_.robust ? robust_fit_of(best.right_cost, best.right_rows, freedom, best.whiteness)
                                   : fit_of(best.cost, freedom, best.whiteness);
     add_trend(trend, step_between(question.nodes), of_best);
     of_best.widened *= errors.for_large_slip();
-    of_best.stray = options_.robust ? freedom - best.right_rows : 0;
     if (options_.prior) {
       const double s = peak.start.arc[0]->at(peak.start.w[0]).s;
       of_best.prior_sigmas = std::abs(part_.boundary().offset(options_.prior->s, s)) / options_.prior->sd;
