@@ -37,6 +37,9 @@ constexpr double kEvenSlope = 0.1;
 constexpr double kShallow = 12;
 // The distance's rate of change varies within a cell: it is taken as this much larger than at the ends.
 constexpr double kSlopeSafety = 2;
+// Where all robust rows are outliers cells are no narrower than one of so many: a peak is as wide as a few deviations
+// of a row, and of sensors better than 2e-5 of the perimeter it may be lost.
+constexpr double kRobustCells = 50000;
 // Cells whose mass is below this share of the best one's are not looked into: exp(-25) = 1e-11.
 constexpr double kNegligible = 25;
 // A cell is resolved when the distance changes by no more than this within it, in standard deviations.
@@ -58,18 +61,11 @@ constexpr double kEven = 1e-6;
 // ... and one that changes by more, as a logarithm, is as good as all at its upper end.
 constexpr double kSteep = 600;
 
-/// How fast the distance d changes between two points, per w: the larger one of what the steepness at both ends allows
-/// and of the change from one end to the other.
-double rate_of(const Score& lo, const Score& hi, double h) {
-  return std::max(std::sqrt(std::max(lo.steepness, hi.steepness)),
-                  std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h);
-}
-
 /// A lower bound on d^2 between two points. Within h, d is at least (d_lo + d_hi - rate h) / 2 if it changes no faster
 /// than `rate`; the rate is doubled, as it varies. It is never above the cost at either end.
-double least_cost_of(const Score& lo, const Score& hi, double h) {
+double least_cost_of(const Score& lo, const Score& hi, double rate, double h) {
   const double distances = std::sqrt(lo.cost) + std::sqrt(hi.cost);
-  const double least_distance = std::max(0.0, 0.5 * (distances - kSlopeSafety * rate_of(lo, hi, h) * h));
+  const double least_distance = std::max(0.0, 0.5 * (distances - kSlopeSafety * rate * h));
   return std::min({square(least_distance), lo.cost, hi.cost});
 }
 
@@ -257,14 +253,25 @@ Score Grid::of_rows(const GridPoint& point) const {
   const Score prior = scorer_.narrow_prior(point);
   Score score = point.score;
   score.cost = std::max(0.0, score.cost - prior.cost);
+  score.information = std::max(0.0, score.information - prior.information);
   score.steepness = std::max(0.0, score.steepness - prior.information);
   return at_least(score, point);
+}
+
+/// The larger one of what the steepness at both ends allows and of the change from one end to the other. A plateau of
+/// robust rows is looked at in kRobustCells at most: sqrt(d^2) falls to 0 within one of them.
+double Grid::rate_of(const Score& lo, const Score& hi, double h) const {
+  const double plateau = std::sqrt(std::min(lo.cost, hi.cost)) * kRobustCells / length_;
+  const double steep = std::min(std::sqrt(std::max(lo.steepness, hi.steepness)), plateau);
+  return std::max({std::sqrt(std::max(lo.information, hi.information)), steep,
+                   std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h});
 }
 
 /// A narrow prior is bounded by itself: together with the rows it would look like a distance that changes fast.
 Grid::Bound Grid::bound_of(const GridPoint& lo, const GridPoint& hi, const GridCell& cell) const {
   const double h = cell.hi - cell.lo;
-  const double cost = least_cost_of(of_rows(lo), of_rows(hi), h) + scorer_.least_narrow_cost(cell.s);
+  const Score at_lo = of_rows(lo), at_hi = of_rows(hi);
+  const double cost = least_cost_of(at_lo, at_hi, rate_of(at_lo, at_hi, h), h) + scorer_.least_narrow_cost(cell.s);
   const double log_volume = std::min(at_least(lo.score, lo).log_volume, at_least(hi.score, hi).log_volume);
   return {rate_of(at_least(lo.score, lo), at_least(hi.score, hi), h),
           -0.5 * (cost + log_volume) / square(fit_.widened)};

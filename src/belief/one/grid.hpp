@@ -199,6 +199,8 @@ class Grid {
     double log_density = 0;  // but for the boundary's own
   };
   Bound bound_of(const GridPoint& lo, const GridPoint& hi, const GridCell& cell) const;
+  /// How fast the distance d changes between two points, per w.
+  double rate_of(const Score& lo, const Score& hi, double h) const;
   bool is_even(const GridPoint& lo, const GridPoint& hi, double length) const;
   bool refine(const Nodes& nodes);
   void weigh();
