@@ -295,7 +295,7 @@ namespace {
 // kWavy times as much as a circle nodes are shorter by the square of that: a mean over a bend and back is off both.
 constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
-// A group in which the finger goes so many times as far as in most is several nodes.
+// A group in which the finger goes so many times as far as on average is several nodes.
 constexpr double kFar = 1;
 
 // A rest ends where two groups in a row are off it by more than 3 standard deviations, the same way, or one by as much

@@ -15,7 +15,7 @@
 //                   a finger whose centre goes evenly stays at it for r J; `at` is the last
 //   d, r            residuals of the contact's place in the world and of its tangent: `Look::residual`
 //   C               their covariance: position, the orientation by its lever w, and the contact's error n, which turns
-//                   the normal by (kappa + kappa_finger) n and nothing else; at a corner n moves the contact as well
+//                   the normal by (kappa + kappa_finger) n and nothing else; at a corner see `pivot`
 //   P, B, M         blocks of a row's normal equations: of its pose, mixed, of the unknowns: RowEquations
 // Idea: before a corner Theta is lower by J than behind, and at it anything between alike. Elsewhere Theta is straight
 // over so short a way. docs/two_fingers.md, "The errors".
