@@ -6,7 +6,10 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
   find_program(ROLLFIX_CCACHE ccache)
   if(ROLLFIX_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${ROLLFIX_CCACHE})
+    # What one checkout has compiled another finds there: no path of a checkout is in what is compiled.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=true
+      ${ROLLFIX_CCACHE})
+    add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
   endif()
 endif()
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cures.hpp"
+#include "paths.hpp"
 #include "rollfix/program.hpp"
 
 namespace cli {
@@ -97,7 +98,7 @@ class Folder {
 
 /// A shell command line in the current folder, in which `rollfix` is the program that was built.
 inline Ran shell(const std::string& command) {
-  const std::string folder = fs::path(ROLLFIX_PROGRAM).parent_path().string();
+  const std::string folder = fs::path(kProgram).parent_path().string();
   const fs::path err = fs::temp_directory_path() / ("rollfix-stderr-" + std::to_string(getpid()));
   const std::string line = "PATH='" + folder + "':\"$PATH\"; { " + command + "\n} 2> '" + err.string() + "'";
   std::FILE* pipe = popen(line.c_str(), "r");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli.hpp"
+#include "paths.hpp"
 
 namespace cli_units_test {
 namespace {
@@ -127,7 +128,7 @@ TEST(CliUnits, a_saved_part_keeps_its_unit_and_is_converted) {
 }
 
 TEST(CliUnits, a_dxf_is_converted_with_all_its_loops) {
-  const std::string inspect = "inspect " ROLLFIX_SOURCE_DIR "/examples/bracket.dxf --json";
+  const std::string inspect = "inspect " + checked_out("examples/bracket.dxf") + " --json";
   const Json own = run(inspect).json();
   EXPECT_EQ(own["unit"], "mm");
   const Json found = run(inspect + " --unit in --gap 0.01mm").json();

@@ -14,6 +14,7 @@
 
 #include "draw/save.hpp"
 #include "draw_helpers.hpp"
+#include "paths.hpp"
 #include "rollfix/error.hpp"
 
 namespace draw_save_test {
@@ -137,7 +138,7 @@ TEST(EncodeFigure, without_the_renderer_says_what_to_install_and_what_works_all_
 
 TEST(EncodeFigure, asks_for_a_renderer_only_when_a_png_or_pdf_is_drawn) {
   setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader prints what the program needs instead of running it
-  const std::string libraries = output_of(ROLLFIX_PROGRAM);
+  const std::string libraries = output_of(kProgram);
   unsetenv("LD_TRACE_LOADED_OBJECTS");
   EXPECT_THAT(libraries, AllOf(HasSubstr("libc."), Not(HasSubstr("librsvg")), Not(HasSubstr("libcairo"))));
 }

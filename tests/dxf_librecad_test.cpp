@@ -5,6 +5,7 @@
 #include "cli.hpp"
 #include "drawing_helpers.hpp"
 #include "files/formats.hpp"
+#include "paths.hpp"
 #include "shapes.hpp"
 
 namespace dxf_librecad_test {
@@ -16,7 +17,7 @@ using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 Drawing librecad_drawing() {
-  return rollfix::files::parse_dxf(cli::read(ROLLFIX_TESTS_DIR "/dxf/librecad.dxf"), "librecad.dxf");
+  return rollfix::files::parse_dxf(cli::read(checked_out("tests/dxf/librecad.dxf")), "librecad.dxf");
 }
 
 TEST(DxfLibrecad, lines_arcs_and_circle_are_what_was_drawn) {

@@ -9,6 +9,7 @@
 
 #include "cli.hpp"
 #include "dxf_text.hpp"
+#include "paths.hpp"
 #include "random.hpp"
 
 namespace dxf_mutation_test {
@@ -20,7 +21,7 @@ using rollfix::files::parse_dxf;
 /// Small valid files of all kinds, ASCII and binary: what the fuzzer starts from.
 std::vector<std::string> valid_files() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(ROLLFIX_SOURCE_DIR "/fuzz/corpus/dxf")) {
+  for (const auto& entry : std::filesystem::directory_iterator(checked_out("fuzz/corpus/dxf"))) {
     files.push_back(cli::read(entry.path()));
   }
   std::sort(files.begin(), files.end());

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
 #include "rollfix/error.hpp"
 
 namespace gallery_test {
@@ -396,7 +397,7 @@ std::string table_row(const GalleryShape& shape) {
 }
 
 TEST(Gallery, documentation_says_what_the_table_says) {
-  std::ifstream file(ROLLFIX_SOURCE_DIR "/docs/gallery.md");
+  std::ifstream file(checked_out("docs/gallery.md"));
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   for (const GalleryShape& shape : gallery_shapes()) {
     EXPECT_THAT(text, HasSubstr(documented(shape)));

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "files/part_record.hpp"
+#include "paths.hpp"
 #include "random.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
@@ -168,7 +169,7 @@ TEST(SavedParts, of_another_version_are_refused_by_name) {
 
 /// Of a triangle, as version 1 wrote it.
 std::string of_version_1() {
-  std::ifstream file(ROLLFIX_TESTS_DIR "/saved_part_version_1.json");
+  std::ifstream file(checked_out("tests/saved_part_version_1.json"));
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

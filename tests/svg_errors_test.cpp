@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "paths.hpp"
 #include "random.hpp"
 #include "svg_helpers.hpp"
 
@@ -108,7 +109,7 @@ TEST(SvgErrors, large_file_is_read) {
 }
 
 TEST(SvgErrors, mutilated_files_give_an_error_or_a_drawing) {
-  std::ifstream stream(std::string(ROLLFIX_TESTS_DIR) + "/svg/inkscape_layers.svg");
+  std::ifstream stream(checked_out("tests/svg/inkscape_layers.svg"));
   std::stringstream content;
   content << stream.rdbuf();
   const std::string whole = content.str();

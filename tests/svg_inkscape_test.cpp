@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "paths.hpp"
 #include "random.hpp"
 #include "svg_helpers.hpp"
 
@@ -28,7 +29,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 std::string file(const std::string& name) {
-  std::ifstream stream(std::string(ROLLFIX_TESTS_DIR) + "/svg/" + name);
+  std::ifstream stream(checked_out("tests/svg/" + name));
   std::stringstream text;
   text << stream.rdbuf();
   return text.str();

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
 #include "watch_helpers.hpp"
 
 namespace watching {
@@ -28,7 +29,7 @@ class Child {
     int in[2] = {-1, -1};
     int out[2] = {-1, -1};
     require(::pipe2(in, O_CLOEXEC) == 0 && ::pipe2(out, O_CLOEXEC) == 0, "pipe");
-    std::vector<char*> words = {const_cast<char*>(ROLLFIX_PROGRAM)};
+    std::vector<char*> words = {const_cast<char*>(kProgram)};
     for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
     id_ = ::fork();
@@ -38,7 +39,7 @@ class Child {
       ::dup2(out[1], STDOUT_FILENO);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDERR_FILENO);
-      ::execv(ROLLFIX_PROGRAM, words.data());
+      ::execv(kProgram, words.data());
       ::_exit(127);
     }
     in_ = Descriptor(in[1]);

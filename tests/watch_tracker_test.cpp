@@ -7,6 +7,7 @@
 #include "catalogs.hpp"
 #include "free_roll.hpp"
 #include "log/mirrored.hpp"
+#include "paths.hpp"
 #include "refusal.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/solve.hpp"
@@ -88,7 +89,7 @@ Log going_on(const Log& before, Log later) {
 }
 
 std::vector<std::string> lines_of(const std::string& file) {
-  std::ifstream text(ROLLFIX_SOURCE_DIR "/examples/" + file);
+  std::ifstream text(checked_out("examples/" + file));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;

@@ -295,8 +295,9 @@ namespace {
 // kWavy times as much as a circle nodes are shorter by the square of that: a mean over a bend and back is off both.
 constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
-// A group in which the finger goes so many times as far as on average is several nodes.
-constexpr double kFar = 1;
+// A group in which the finger goes so many times as far as on average is several nodes. The margin is for chance: noise
+// that gathers spreads the rows of an even roll a little, now more, now less.
+constexpr double kFar = 1.3;
 
 // A rest ends where two groups in a row are off it by more than 3 standard deviations, the same way, or one by as much
 // as no noise is; or where all of them have a trend. As chi-squares of two degrees of freedom, the length's and the

@@ -23,6 +23,7 @@ namespace rollfix::hold {
 namespace {
 
 constexpr double kBlurReach = 5;  // standard deviations: beyond, a corner is not seen
+constexpr double kFitsSide = 8;   // chi-square of one angle: more fits no side
 
 /// The place of an open boundary that is nearest to s; of a closed one s itself, on any lap.
 double on_boundary(const Boundary& boundary, double s) {
@@ -69,6 +70,7 @@ BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
   BlurredPlace place = plain(part, s);
   const Boundary boundary = part.boundary();
   const double base = boundary.on_first_lap(s);
+  double nearest = 0;
   for (const Corner& corner : part.corners()) {
     // How far s is past the corner, the shorter way round.
     double past = base - corner.s;
@@ -76,6 +78,10 @@ BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
       past -= std::copysign(boundary.perimeter, past);
     }
     if (std::abs(past) > kBlurReach * sd) continue;
+    if (!place.has_corner || std::abs(past) < nearest) {
+      nearest = std::abs(past);
+      place.other = place.side + (past >= 0 ? -corner.turn : corner.turn);
+    }
     place.has_corner = true;
     const double d = past / sd;
     const double bell = std::exp(-0.5 * d * d) / std::sqrt(2 * std::numbers::pi);
@@ -158,9 +164,8 @@ HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::si
   sight.turn_variance = angle + sight.at.variance;
   // 1 without corners; 1 / alike where the pivot is all that the angle says.
   sight.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
-  // An angle of little weight adds little to the square. It is charged what an angle costs on average, so that no place
-  // is likelier because its rows say less.
-  sight.blur_size = std::log1p(corner / plain) / alike + 1 - sight.angles;
+  sight.plain = plain;
+  sight.blur_size = std::log1p(corner / plain) / alike;
   // Where it is not, r is linear in n, and n is eliminated by C itself.
   const bool is_bent = is_uneven(part_, sight.at, s, errors);
   sight.error = errors.travel / std::sqrt(rows_.rows[row].weight);
@@ -173,6 +178,7 @@ HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::si
     }
     // det C counts the corner by its share only, C itself in full.
     sight.information(2, 2) = 1 / (plain + corner);
+    sight.plain_information(2, 2) = 1 / plain;
     sight.log_size = std::log(plain) + sight.blur_size;
     return sight;
   }
@@ -194,6 +200,7 @@ HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::si
   covariance(2, 2) += bend * bend;
   covariance /= rows_.rows[row].weight;
   sight.log_size = std::log(covariance.determinant()) + sight.blur_size;
+  sight.plain_information = covariance.inverse();
   covariance(2, 2) += corner;
   sight.information = covariance.inverse();
   return sight;
@@ -288,6 +295,19 @@ void HoldFit::pivot(Look& look, double finger_tangent, double side_tangent) {
   look.log_size += std::log(size);
 }
 
+/// An angle of little weight adds little to the square. It is charged what it would cost on the side that it fits, so
+/// that no place is likelier because its rows say less; where it fits neither, what an angle costs on average.
+void HoldFit::charge(Look& look, double off) {
+  if (!look.at.has_corner) return;
+  const double turned = off + look.at.angle;
+  const double side = std::pow(turned - look.at.side, 2) / look.plain;
+  const double other = std::pow(turned - look.at.other, 2) / look.plain;
+  const double square = std::min(side, other);
+  const double charged = (1 - look.angles) * (1 + (square - 1) * std::exp(-std::pow(square / kFitsSide, 2)));
+  look.blur_size += charged;
+  look.log_size += charged;
+}
+
 HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t finger) const {
   const Sight seen = sight(place_of(state, row, finger), stretch_of(state, finger), row, finger);
   return look(seen, state.placed[row], row, finger);
@@ -301,6 +321,7 @@ HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_
   // Of a range of Theta only what is beyond it is a residual; inside it is 0 and has no slope.
   const double beyond = std::max(0.0, std::abs(off) - sight.at.half_turn);
   look.residual(2) = std::copysign(beyond, off);
+  charge(look, off);
   if (beyond > 0 || sight.at.half_turn == 0) {
     look.by_pose(2, 2) = -1;
     look.by_place(2) = -sight.at.bend;
@@ -344,6 +365,9 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     one.information *= how.right;
     const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information;
     sum.pose += weighed * one.by_pose;
+    const bool is_blurred = rows_.has_noise && one.at.has_corner;
+    sum.plain += is_blurred ? Eigen::Matrix3d(one.by_pose.transpose() * how.right * one.plain_information * one.by_pose)
+                            : Eigen::Matrix3d(weighed * one.by_pose);
     sum.slope -= weighed * one.residual;
     sum.square += how.cost;
     sum.right_square += how.right * square;
@@ -365,6 +389,7 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     sum.own(k, count + k) += both;
     sum.own(count + k, k) += both;
   }
+  const Eigen::Matrix3d of_fingers = sum.pose;
   for (std::size_t wheel = 0; wheel < wheels(); ++wheel) add_pin(state, row, wheel, with_unknowns, sum);
   if (row == 0 && rows_.pose) add_pose_prior(state.placed[row], sum);
   if (rows_.outlier_share > 0) {
@@ -377,6 +402,7 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
   if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
   // P stays invertible where the heading is not determined either.
   sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
+  sum.plain += sum.pose - of_fingers;
   return sum;
 }
 

@@ -269,7 +269,9 @@ Reduced HoldFit::reduced(const HeldState& state) const {
     // Where a wheel is at a row, the robot made: there is no density of it that a narrow row could be likelier by, and
     // rows are weighed by how well they fit alone.
     // log det C + log det P: integrated over the pose, a row's density has the factor (det C det P)^(-1/2).
-    const double volume = one.log_size + pose.vectorD().array().abs().log().sum();
+    // Both without corners, which `charge` counts: a row that pivots has no more room for its pose than others.
+    const Eigen::LDLT<Eigen::Matrix3d> plain(one.plain);
+    const double volume = one.log_size + plain.vectorD().array().abs().log().sum();
     sum.log_volume -= 0.5 * (wheels() > 0 ? one.blur_size : volume);
   }
   for (auto k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
@@ -288,17 +290,17 @@ Reduced HoldFit::reduced(const HeldState& state) const {
 
 /// Levenberg's method. The cost never grows from round to round. Steps are by the squares alone; what corners add to
 /// the cost only decides whether a step is taken.
-HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const {
+HeldState HoldFit::fit(HeldState state, const Held& held) const {
   double damping = 1e-4;
   for (int round = 0; round < kMostFitRounds; ++round) {
     beat();
     Reduced now = reduced(state);
-    // The unknown's row and column become those of the unit matrix: its step is 0.
-    if (held) {
-      now.matrix.row(*held).setZero();
-      now.matrix.col(*held).setZero();
-      now.matrix(*held, *held) = 1;
-      now.slope(*held) = 0;
+    // Row and column of what is held become those of the unit matrix: its step is 0.
+    for (const Eigen::Index k : held) {
+      now.matrix.row(k).setZero();
+      now.matrix.col(k).setZero();
+      now.matrix(k, k) = 1;
+      now.slope(k) = 0;
     }
     const double trace = now.matrix.diagonal().maxCoeff();
     bool is_better = false;

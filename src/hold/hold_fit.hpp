@@ -19,6 +19,9 @@ namespace rollfix::hold {
 using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostFingers, 1>;
 using UnknownsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostFingers, 2 * kMostFingers>;
 
+/// Unknowns by their numbers.
+using Held = std::vector<Eigen::Index>;
+
 /// The part at one instant: where a point in its middle is in the world, and how it is turned.
 struct Placed {
   Vec2 middle = Vec2::Zero();
@@ -81,8 +84,8 @@ class HoldFit {
   HeldState at(const Unknowns& unknowns, const HeldState& near) const;
   /// Beside wheels with poses that follow from one another: see hold_paths.cpp.
   HeldState afresh(const Unknowns& unknowns) const;
-  /// The nearest minimum of the cost, by Levenberg's method. `held`: this unknown stays.
-  HeldState fit(HeldState state, std::optional<Eigen::Index> held = {}) const;
+  /// The nearest minimum of the cost, by Levenberg's method. `held`: these unknowns stay.
+  HeldState fit(HeldState state, const Held& held = {}) const;
   /// Without noise: about the state whose largest residual, over its tolerance, is smallest; ends as soon as that is at
   /// most 1. A local search: that it finds none proves nothing.
   HeldState best_worst(HeldState from);
@@ -146,6 +149,7 @@ class HoldFit {
   Look look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const;
   Look look(const HeldState& state, std::size_t row, std::size_t finger) const;
   void bend(Look& look, double finger_curvature) const;
+  static void charge(Look& look, double off);
   static void pivot(Look& look, double finger_tangent, double side_tangent);
   struct RowEquations;
   RowEquations equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
@@ -241,6 +245,7 @@ struct BlurredPlace {
   double variance = 0;      // of Theta, by corners
   double pivoting = 0;      // how probable it is that the finger pivots, at the likeliest corner there, ...
   double past = 0;          // ... and how far the place is past that, length
+  double other = 0;         // Theta on the other side of the nearest corner there
   bool has_corner = false;  // near enough to be seen
   double half_turn = 0;     // without blur: Theta is within this of `angle`
 };
@@ -271,14 +276,16 @@ using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers
 /// Where a contact is on the part, and how far it may be off: whatever the part's pose.
 struct HoldFit::Sight {
   BlurredPlace at;
-  Vec2 point = Vec2::Zero();                              // if it is evidence
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // C^-1, 0 for what is not measured
-  double log_size = 0;                                    // log det C, corners by their share
-  double blur_size = 0;                                   // of it what corners add
-  double angles = 1;                                      // numbers that the angle counts as
-  double turn_variance = 0;                               // of r without n, with what a corner adds
-  double s = 0;                                           // the contact's place, z + L / (1 + e)
-  double stretch = 0;                                     // e
+  Vec2 point = Vec2::Zero();                                    // if it is evidence
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();        // C^-1, 0 for what is not measured
+  Eigen::Matrix3d plain_information = Eigen::Matrix3d::Zero();  // without corners
+  double log_size = 0;                                          // log det C, corners by their share
+  double blur_size = 0;                                         // of it what corners add
+  double angles = 1;                                            // numbers that the angle counts as
+  double plain = 0;                                             // variance of r without corners
+  double turn_variance = 0;                                     // of r without n, with what a corner adds
+  double s = 0;                                                 // the contact's place, z + L / (1 + e)
+  double stretch = 0;                                           // e
   // Where the normal turns unevenly over the contact's error n: without n.
   std::optional<Eigen::Matrix3d> bare_information{};
   double bare_log_size = 0;
@@ -307,6 +314,7 @@ struct HoldFit::PinLook {
 /// The normal equations of one row, and what it adds to chi-square and to the density.
 struct HoldFit::RowEquations {
   Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();   // P = sum of A^T C^-1 A, by x, y of A and the heading
+  Eigen::Matrix3d plain = Eigen::Matrix3d::Zero();  // the same without corners, for the density
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();  // minus half the gradient of the square by the pose
   RowBlock mixed;                                   // B; this and the next two only if asked for
   UnknownsMatrix own;                               // M

@@ -1,6 +1,5 @@
 #include "steps.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,8 +18,8 @@
 //   D               scale of each unknown: its set's width / sqrt(12), its standard deviation where no measurement
 //                   determines it
 // Follows docs/two_fingers.md, "Three and more fingers".
-// Idea: with three fingers what noise leaves is at most a curve thickened by normal distributions. Directions that
-// no measurement determines keep the width of their set.
+// Idea: what noise leaves is mostly a curve thickened by normal distributions. Where two first contacts and more are
+// free it is a cloud: hold_cloud.cpp.
 namespace rollfix::hold {
 namespace {
 
@@ -37,69 +36,49 @@ constexpr double kOneMode = 0.05;        // a valley no deeper than this share o
 constexpr double kSamePlace = 1e-9;      // of the perimeter
 constexpr double kSameOptimum = 0.05;    // of a standard deviation
 constexpr double kFreeShare = 0.01;      // of the perimeter: a set that is wider can be a continuum
+constexpr double kStillFree = 0.25;      // of the variance in its set: a first contact that is known no better
+constexpr double kNeighbours = 10;       // near a cloud's node, in standard deviations of what it stands for, ...
+constexpr double kOnCloud = 2;           // ... and of the rest
 
-using Scale = Unknowns;
-
-/// The inverse of an information matrix in which no direction is known worse than its scale, log det of what was
-/// inverted, and how many directions were.
-struct Inverse {
-  UnknownsMatrix covariance;
-  double log_determinant = 0;
-  int free = 0;
-};
-
-Inverse inverse_within(const UnknownsMatrix& information, const Scale& scale) {
-  Inverse inverse;
-  inverse.covariance = UnknownsMatrix::Zero(scale.size(), scale.size());
-  if (scale.size() == 0) return inverse;
-  // In units of the scales an eigenvalue of 1 is a direction known as well as its scale; less is set to 1.
-  const UnknownsMatrix scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<UnknownsMatrix> eigen(scaled);
-  Unknowns values = eigen.eigenvalues();
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    // NaN counts as free.
-    if (!(values(k) > 1)) {
-      values(k) = 1;
-      ++inverse.free;
-    }
-    inverse.log_determinant += std::log(values(k)) - 2 * std::log(scale(k));
+/// A place that is as likely anywhere on its set has this standard deviation; other unknowns the one they had before
+/// the roll.
+Scale scales_in(const HoldFit& fit, const HeldSet& set) {
+  Scale scale(fit.size());
+  for (Eigen::Index k = 0; k < fit.size(); ++k) {
+    const auto finger = static_cast<std::size_t>(k);
+    scale(k) = finger < fit.fingers()
+                   ? std::max(set.extent[finger].width(), fit.rows().errors[finger].travel) / std::sqrt(12.0)
+                   : fit.scale_of(k);
   }
-  // D V diag(1 / values) V^T D, and log det = sum of log values - 2 sum of log D.
-  const UnknownsMatrix vectors = scale.asDiagonal() * eigen.eigenvectors();
-  inverse.covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
-  return inverse;
+  return scale;
 }
 
-/// The posterior along one ridge: nodes from a peak to both sides, each with the best unknowns for its place on the
-/// axis.
+/// The posterior about one peak. Along a ridge: nodes to both sides, each with the best unknowns for its place on the
+/// axis. Or over a cloud.
 class RidgeWalk {
  public:
-  /// Chooses the axis, and the peak's node. `start`: a minimum of the cost, in `set`.
+  /// Chooses what is held, and the peak's node. `start`: a minimum of the cost, in `set`.
   RidgeWalk(const HoldFit& fit, const Part& part, const HeldSet& set, const Optimum& start)
-      : fit_(fit), boundary_(part.boundary()), scale_(Scale::Constant(fit.size(), 1)) {
-    const auto fingers = static_cast<Eigen::Index>(fit.fingers());
-    double widest = 0;
-    for (Eigen::Index k = 0; k < fit.size(); ++k) {
-      scale_(k) = fit.scale_of(k);
-      if (k >= fingers) continue;
-      const double width = set.extent[static_cast<std::size_t>(k)].width();
-      widest = std::max(widest, width);
-      // A place that is as likely anywhere on its set has this standard deviation.
-      scale_(k) = std::max(width, fit.rows().errors[static_cast<std::size_t>(k)].travel) / std::sqrt(12.0);
-    }
+      : fit_(fit), boundary_(part.boundary()), scale_(scales_in(fit, set)) {
     const Inverse whole = inverse_within(fit.reduced(start.state).matrix, scale_);
-    free_ = whole.free;
     // On a set that is short no direction is called free.
-    is_free_ = free_ > 0 && widest > kFreeShare * boundary_.perimeter;
-    // Only first contacts can be the axis.
-    whole.covariance.diagonal().head(fingers).maxCoeff(&axis_);
-    sd_ = std::sqrt(whole.covariance(axis_, axis_));
-    most_step_ = std::max(scale_(axis_) * std::sqrt(12.0) * kMostOfSet, 0.1 * sd_);
-    peak_ = node_at(start.state);
+    double widest = 0;
+    for (const Interval& extent : set.extent) widest = std::max(widest, extent.width());
+    is_free_ = whole.free > 0 && widest > kFreeShare * boundary_.perimeter;
+    held_ = worst_known(whole.covariance, is_free_ ? whole.free : 1);
+    sd_ = std::sqrt(whole.covariance(axis(), axis()));
+    most_step_ = std::max(scale_(axis()) * std::sqrt(12.0) * kMostOfSet, 0.1 * sd_);
+    peak_ = node_at(fit_, start.state, held_, scale_);
   }
 
   /// Fills `nodes`, in the order of the axis, and `beyond`.
   void run() {
+    if (is_cloud()) {
+      HoldCloud cloud = cloud_about(fit_, boundary_, peak_.state, held_, scale_);
+      nodes = std::move(cloud.nodes);
+      box_ = std::move(cloud.box);
+      return;
+    }
     // Half around to each side: places are not visited twice.
     const double room = boundary_.closed ? 0.5 * boundary_.perimeter : boundary_.perimeter;
     std::vector<HoldNode> behind = walk(-1, room);
@@ -113,20 +92,21 @@ class RidgeWalk {
       const double hi = k + 1 < nodes.size() ? place(nodes[k + 1]) - place(nodes[k]) : 0;
       nodes[k].width = nodes.size() == 1 ? sd_ * std::sqrt(2 * std::numbers::pi) : 0.5 * (lo + hi);
       // The axis is held at a node; over the width that it stands for it is uniform.
-      nodes[k].covariance(axis_, axis_) += nodes[k].width * nodes[k].width / 12;
+      nodes[k].covariance(axis(), axis()) += nodes[k].width * nodes[k].width / 12;
     }
   }
 
   /// Whether another optimum lies on the ridge.
   bool passes(const HeldState& other) const {
+    if (is_cloud()) return is_in_box(other) && (held_.size() == fit_.fingers() || is_in_cloud(other));
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
       // On the lap of the node.
-      const double at = place(nodes[k]) + offset(nodes[k].state, other, axis_);
+      const double at = place(nodes[k]) + offset(nodes[k].state, other, axis());
       if (at < place(nodes[k]) || at > place(nodes[k + 1])) continue;
       const double share = (at - place(nodes[k])) / std::max(place(nodes[k + 1]) - place(nodes[k]), 1e-300);
       bool is_on = true;
       for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fit_.fingers()) && is_on; ++i) {
-        if (i == axis_) continue;
+        if (i == axis()) continue;
         // The ridge between two nodes is a straight line; within a standard deviation of it counts as on it.
         const double mean = share * (nodes[k + 1].state.unknowns(i) - nodes[k].state.unknowns(i));
         is_on = std::abs(offset(nodes[k].state, other, i) - mean) <= std::sqrt(nodes[k].covariance(i, i));
@@ -154,40 +134,58 @@ class RidgeWalk {
   std::vector<Beyond> beyond;
   const HoldNode& peak() const { return peak_; }
   bool is_free() const { return is_free_; }
-  int free() const { return free_; }
+  bool is_cloud() const { return held_.size() > 1; }
 
  private:
   double offset(const HeldState& from, const HeldState& to, Eigen::Index unknown) const {
     return boundary_.offset(from.unknowns(unknown), to.unknowns(unknown));
   }
 
-  double place(const HoldNode& node) const { return node.state.unknowns(axis_); }
+  Eigen::Index axis() const { return held_.front(); }
 
-  /// log p at a state: integrated over all unknowns but the axis by Laplace's method. The covariance is of those; the
-  /// axis' row and column are 0.
-  HoldNode node_at(const HeldState& state) const {
-    HoldNode node;
-    node.state = state;
-    const Reduced now = fit_.reduced(state);
-    const Eigen::Index rest = fit_.size() - 1;
-    // H and D without the axis.
-    UnknownsMatrix without(rest, rest);
-    Scale scale(rest);
-    for (Eigen::Index i = 0; i < rest; ++i) {
-      const Eigen::Index from = i + (i >= axis_ ? 1 : 0);
-      scale(i) = scale_(from);
-      for (Eigen::Index j = 0; j < rest; ++j) without(i, j) = now.matrix(from, j + (j >= axis_ ? 1 : 0));
+  /// First contacts that are known worst, the worst of all first, then of those that are left the worst with these
+  /// held; no more than `most`, and beyond the first none that is known.
+  Held worst_known(UnknownsMatrix covariance, int most) const {
+    Held held;
+    while (static_cast<int>(held.size()) < most) {
+      Eigen::Index worst = 0;
+      const double variance = covariance.diagonal().head(static_cast<Eigen::Index>(fit_.fingers())).maxCoeff(&worst);
+      if (!held.empty() && !(variance > kStillFree * scale_(worst) * scale_(worst))) break;
+      held.push_back(worst);
+      // Schur's complement: the covariance of the others with this one held.
+      covariance -= UnknownsMatrix(covariance.col(worst) * covariance.row(worst)) / variance;
     }
-    const Inverse inverse = inverse_within(without, scale);
-    node.log_density = -0.5 * state.square + now.log_volume - 0.5 * inverse.log_determinant;
-    node.covariance = UnknownsMatrix::Zero(fit_.size(), fit_.size());
-    for (Eigen::Index i = 0; i < rest; ++i) {
-      for (Eigen::Index j = 0; j < rest; ++j) {
-        node.covariance(i + (i >= axis_ ? 1 : 0), j + (j >= axis_ ? 1 : 0)) = inverse.covariance(i, j);
+    return held;
+  }
+
+  bool is_in_box(const HeldState& other) const {
+    for (std::size_t j = 0; j < held_.size(); ++j) {
+      const double at = place(peak_, held_[j]) + offset(peak_.state, other, held_[j]);
+      if (at < box_[j].lo || at > box_[j].hi) return false;
+    }
+    return true;
+  }
+
+  /// Among the cloud's nodes: those near by what is held have the rest on both sides, or on it.
+  bool is_in_cloud(const HeldState& other) const {
+    const auto fingers = static_cast<Eigen::Index>(fit_.fingers());
+    const auto is_held = [&](Eigen::Index i) { return std::ranges::find(held_, i) != held_.end(); };
+    std::vector<Interval> around(fit_.fingers(),
+                                 {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+    for (const HoldNode& node : nodes) {
+      const auto sds = [&](Eigen::Index i) { return offset(other, node.state, i) / std::sqrt(node.covariance(i, i)); };
+      if (std::ranges::any_of(held_, [&](Eigen::Index i) { return std::abs(sds(i)) > kNeighbours; })) continue;
+      for (Eigen::Index i = 0; i < fingers; ++i) {
+        Interval& range = around[static_cast<std::size_t>(i)];
+        const double far = is_held(i) ? std::numeric_limits<double>::infinity() : kOnCloud;
+        range = {std::min(range.lo, sds(i) - far), std::max(range.hi, sds(i) + far)};
       }
     }
-    return node;
+    return std::ranges::all_of(around, [](const Interval& range) { return range.lo <= 0 && range.hi >= 0; });
   }
+
+  static double place(const HoldNode& node, Eigen::Index unknown) { return node.state.unknowns(unknown); }
+  double place(const HoldNode& node) const { return place(node, axis()); }
 
   /// The node a step along the axis further. The fit starts on the straight line through the last two nodes.
   HoldNode next_to(const HoldNode& from, const HoldNode* before, double step) const {
@@ -196,8 +194,8 @@ class RidgeWalk {
       const double share = step / (place(from) - place(*before));
       unknowns += std::clamp(share, -2.0, 2.0) * (from.state.unknowns - before->state.unknowns);
     }
-    unknowns(axis_) = place(from) + step;
-    return node_at(fit_.fit(fit_.at(unknowns, from.state), axis_));
+    unknowns(axis()) = place(from) + step;
+    return node_at(fit_, fit_.fit(fit_.at(unknowns, from.state), held_), held_, scale_);
   }
 
   /// Nodes on one side of the peak. `direction`: 1 or -1 along the axis; `room`: length at most.
@@ -246,10 +244,10 @@ class RidgeWalk {
   const HoldFit& fit_;
   Boundary boundary_;
   Scale scale_;
-  Eigen::Index axis_ = 0;
+  Held held_;                  // the axis; of a cloud as many as there are free directions
+  std::vector<Interval> box_;  // of a cloud, of each of them
   double sd_ = 0;
   double most_step_ = 0;
-  int free_ = 0;
   bool is_free_ = false;
   HoldNode peak_;
 };
@@ -279,11 +277,19 @@ class Humps {
   std::vector<HoldMode> run(std::vector<Optimum> optima) {
     std::stable_sort(optima.begin(), optima.end(),
                      [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
+    // Clouds first: what lies on one is a part of it.
+    std::stable_partition(optima.begin(), optima.end(),
+                          [&](const Optimum& one) { return RidgeWalk(fit_, part_, sets_[one.set], one).is_cloud(); });
     for (std::size_t next = 0; next < optima.size(); ++next) {
       const Optimum one = optima[next];  // more may be added
-      if (known(one.state, one.set)) continue;
-      ridges_.push_back({RidgeWalk(fit_, part_, sets_[one.set], one), one.set, ridges_.size()});
-      ridges_.back().walk.run();
+      if (known(one.state)) continue;
+      RidgeWalk walk(fit_, part_, sets_[one.set], one);
+      walk.run();
+      // Where a cloud overlaps another they are counted once.
+      for (HoldNode& node : walk.nodes) {
+        if (walk.is_cloud() && known(node.state)) node.width = 0;
+      }
+      ridges_.push_back({std::move(walk), one.set, ridges_.size()});
       for (const RidgeWalk::Beyond& other : ridges_.back().walk.beyond) {
         links_.push_back({ridges_.size() - 1, other.state, other.valley});
         optima.push_back({other.state, one.set});
@@ -313,12 +319,10 @@ class Humps {
   }
 
   /// The ridge that an optimum lies on.
-  std::optional<std::size_t> known(const HeldState& state, std::size_t set) const {
+  std::optional<std::size_t> known(const HeldState& state) const {
     for (std::size_t k = 0; k < ridges_.size(); ++k) {
       const RidgeWalk& walk = ridges_[k].walk;
-      // A set that is free in two directions has one ridge, which stands for all of it.
-      const bool is_all = ridges_[k].set == set && walk.is_free() && walk.free() > 1;
-      if (is_all || walk.passes(state) || walk.is_peak(state)) return k;
+      if (walk.passes(state) || walk.is_peak(state)) return k;
     }
     return std::nullopt;
   }
@@ -326,7 +330,7 @@ class Humps {
   /// Two ridges are one mode if the valley between their peaks is not below 5 % of the lower peak.
   void join() {
     for (const Link& link : links_) {
-      const std::optional<std::size_t> to = known(link.to, sets_.size());
+      const std::optional<std::size_t> to = known(link.to);
       if (!to) continue;
       const double one = ridges_[link.from].walk.peak().log_density;
       const double other = ridges_[*to].walk.peak().log_density;

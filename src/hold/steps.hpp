@@ -79,6 +79,31 @@ struct Optimum {
   std::size_t set = 0;
 };
 
+/// Where nothing is held, a standard deviation of each unknown; see scales_in.
+using Scale = Unknowns;
+
+/// The inverse of an information matrix in which no direction is known worse than its scale, log det of what was
+/// inverted, and how many directions were.
+struct Inverse {
+  UnknownsMatrix covariance;
+  double log_determinant = 0;
+  int free = 0;
+};
+Inverse inverse_within(const UnknownsMatrix& information, const Scale& scale);
+
+/// log p at a state with these unknowns held: integrated over all others by Laplace's method. The covariance is of
+/// those; the rows and columns of what is held are 0.
+HoldNode node_at(const HoldFit& fit, const HeldState& state, const Held& held, const Scale& scale);
+
+/// The posterior over a continuum of two dimensions and more: as many first contacts are held at each node, and nodes
+/// are spread evenly over all that fits about a state.
+struct HoldCloud {
+  std::vector<HoldNode> nodes;
+  std::vector<Interval> box;  // of each first contact that is held: everything in it was looked at
+};
+HoldCloud cloud_about(const HoldFit& fit, const Boundary& boundary, const HeldState& state, const Held& held,
+                      const Scale& scale);
+
 /// The posterior's modes about these optima: a ridge is followed along the first contact that is known worst, on each
 /// of its places the rest is taken as normally distributed (Laplace's method).
 std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,

@@ -27,6 +27,8 @@ constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start
 constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
 constexpr int kNudges = 4;                // to both sides, of a contact's error each, ...
 constexpr double kFitsNowhere = 1e-6;     // ... where all rows are less probable
+constexpr int kCornerRounds = 8;          // of moving a finger to where one of its rows is at a corner, ...
+constexpr double kCornerSteps = 2;        // ... no more than so many steps from row to row away
 constexpr double kHopeless = 60;   // an optimum that costs so much more than the best is about exp(-30) as likely
 constexpr double kWideHold = 0.1;  // of the perimeter: a place that is known no better is a continuum
 
@@ -229,6 +231,9 @@ class HoldWeighing {
         // Few rows fit here, and all rows don't.
         state = nudged(fit, one.state.unknowns, state);
       }
+      if (fit.wheels() == 0 && !problem_.part.corners().empty() && !fits(fit, state)) {
+        state = at_corners(fit, std::move(state));
+      }
       const std::size_t set = set_with(found, state, one.set);
       // The fit has left all sets: its place was excluded by the search.
       if (set == found.size()) continue;
@@ -254,6 +259,49 @@ class HoldWeighing {
     }
     HeldState other = fit.fit(*std::ranges::min_element(starts, {}, &HeldState::cost));
     return other.cost < state.cost ? other : state;
+  }
+
+  /// On a straight side nothing draws a row to the corner beside it that it pivots at, or was past already. So in turn
+  /// each finger is moved to where such a row would be at the corner, as long as that fits better.
+  HeldState at_corners(const HoldFit& fit, HeldState state) const {
+    for (int round = 0; round < kCornerRounds; ++round) {
+      HeldState best = state;
+      for (std::size_t finger = 0; finger < fit.fingers(); ++finger) {
+        const auto k = static_cast<Eigen::Index>(finger);
+        for (const double by : ways_to_corners(fit, state, finger)) {
+          Unknowns moved = state.unknowns;
+          moved(k) += by;
+          HeldState other = fit.at(moved, state);
+          if (other.cost < best.cost) best = std::move(other);
+        }
+      }
+      best = fit.fit(std::move(best));
+      if (best.cost >= state.cost - 1) break;
+      state = std::move(best);
+    }
+    return state;
+  }
+
+  /// How far it is from each of a finger's rows to the corners that are no farther than the longest step from row to
+  /// row.
+  std::vector<double> ways_to_corners(const HoldFit& fit, const HeldState& state, std::size_t finger) const {
+    const std::size_t rows = fit.rows().rows.size();
+    double step = 0;
+    for (std::size_t row = 1; row < rows; ++row) {
+      step = std::max(step, std::abs(fit.place_of(state, row, finger) - fit.place_of(state, row - 1, finger)));
+    }
+    std::vector<double> ways;
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (const Corner& corner : problem_.part.corners()) {
+        const double way = boundary_.offset(boundary_.canonical(fit.place_of(state, row, finger)), corner.s);
+        if (std::abs(way) <= kCornerSteps * step) ways.push_back(way);
+      }
+    }
+    // Rows of one pivot are at one place but for their errors.
+    std::ranges::sort(ways);
+    const auto is_same = [&](double one, double other) { return other - one < fit.rows().errors[finger].travel; };
+    ways.erase(std::ranges::unique(ways, is_same).begin(), ways.end());
+    return ways;
   }
 
   /// Of many places all over a set those that fit best as they are, no two of them close together, and some that are

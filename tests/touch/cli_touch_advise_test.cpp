@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli.hpp"
+#include "paths.hpp"
 
 namespace cli_touch_advise_test {
 
@@ -13,7 +14,7 @@ using cli::Ran;
 using cli::run;
 using testing::HasSubstr;
 
-const std::string kBracket = std::string(ROLLFIX_SOURCE_DIR) + "/examples/bracket.dxf";
+const std::string kBracket = checked_out("examples/bracket.dxf");
 // Two poses are left.
 const std::string kThree =
     kBracket +

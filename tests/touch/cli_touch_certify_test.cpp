@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli.hpp"
+#include "paths.hpp"
 
 namespace cli_touch_certify_test {
 namespace {
@@ -13,7 +14,7 @@ using cli::Folder;
 using cli::Ran;
 using cli::run;
 
-const std::string kBracket = ROLLFIX_SOURCE_DIR "/examples/bracket.dxf";
+const std::string kBracket = checked_out("examples/bracket.dxf");
 const std::string kThree = "locate " + kBracket +
                            " --loop 1 --finger disk,r=3 --touch 106.476,94.401 --touch 158.015,50.015 "
                            "--touch 192.873,57.557 --certify proof.json ";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli.hpp"
+#include "paths.hpp"
 
 // Tables of touches as controllers, data loggers and spreadsheets write them.
 namespace cli_touch_reading_test {
@@ -20,7 +21,7 @@ using cli::Ran;
 using cli::run;
 using testing::HasSubstr;
 
-const std::string kBracket = std::string(ROLLFIX_SOURCE_DIR) + "/examples/bracket.dxf";
+const std::string kBracket = checked_out("examples/bracket.dxf");
 const std::string kBall = " --finger disk,r=3 --noise position=0.02";
 
 // Of a bracket at x = 120, y = 45, turned by 12 degrees; what all forms below say.

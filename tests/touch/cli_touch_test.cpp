@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli.hpp"
+#include "paths.hpp"
 
 namespace cli_touch_test {
 
@@ -15,7 +16,7 @@ using cli::run;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kBracket = std::string(ROLLFIX_SOURCE_DIR) + "/examples/bracket.dxf";
+const std::string kBracket = checked_out("examples/bracket.dxf");
 
 // A ball of 3 mm at five places of the bracket, which lies at x = 120, y = 45, turned by 12 degrees; 0.02 mm of noise.
 const std::string kFive =

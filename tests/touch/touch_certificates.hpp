@@ -8,6 +8,7 @@
 #include <string>
 
 #include "outline/turn.hpp"
+#include "paths.hpp"
 #include "random_outlines.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/documents.hpp"
@@ -51,7 +52,7 @@ inline Part random_part(int kind, std::mt19937_64& generator) {
     case 4:
       return bracket();
     case 5:
-      return rollfix::load_part(ROLLFIX_SOURCE_DIR "/examples/bracket.dxf", {}).part;
+      return rollfix::load_part(checked_out("examples/bracket.dxf"), {}).part;
     default:
       for (;;) {
         if (const std::optional<Part> part = random_outlines::outline(generator)) return *part;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
+#include "paths.hpp"
 #include "rollfix/march.hpp"
 #include "rollfix/outline.hpp"
 
@@ -44,9 +45,7 @@ std::vector<std::string> texts_in(const std::string& svg) {
   return texts;
 }
 
-std::string figure_of_the_documents(const std::string& name) {
-  return cli::read(cli::fs::path(ROLLFIX_SOURCE_DIR) / "docs" / name);
-}
+std::string figure_of_the_documents(const std::string& name) { return cli::read(checked_out("docs/" + name)); }
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include "cli.hpp"
 #include "drawing_helpers.hpp"
 #include "dxf_text.hpp"
+#include "paths.hpp"
 #include "random.hpp"
 
 namespace dxf_witness_test {
@@ -31,8 +32,8 @@ std::string python() {
 
 /// Writes the drawings into the current folder and tells what they should be.
 cli::Json written_drawings(int random_drawings) {
-  const std::string command =
-      fmt::format("{} {}/dxf/write_with_ezdxf.py . {} {}", python(), ROLLFIX_TESTS_DIR, test_seed(), random_drawings);
+  const std::string command = fmt::format("{} {} . {} {}", python(), checked_out("tests/dxf/write_with_ezdxf.py"),
+                                          test_seed(), random_drawings);
   const cli::Ran ran = cli::shell(command);
   EXPECT_EQ(ran.code, 0) << "needs python3-ezdxf (script/bootstrap): " << ran.err;
   return cli::Json::parse(cli::read("drawings.json"));

@@ -89,9 +89,9 @@ Part flat(int number, std::mt19937_64& generator) { return number % 2 == 0 ? ran
 /// `outliers`: a share of all measurements that are anything.
 template <class PartOf>
 void expect_calibrated(const char* what, const Holding& holding, const PartOf& part_of, double outliers = 0,
-                       int cases = 6) {
+                       int cases = 12) {
   Tally tally;
-  const int count = test_count(cases);
+  const int count = full_count(cases);
   for (int number = 0; number < count; ++number) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(number) + 400);
     HoldCase one = random_hold(part_of(number, generator), holding, generator);
@@ -138,6 +138,24 @@ TEST(HoldCoverage, ThreeFingersWithCentresThatPivotAtCorners) {
   holding.rows = 100;
   expect_calibrated(
       "3, x y, over corners", holding,
+      [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }, 0, kMany);
+}
+/// Where normals are all that is known, two and three first contacts are free: no ridge, but a cloud.
+TEST(HoldCoverage, ThreeFingersWithoutCentresOnStraightSides) {
+  Holding holding = noisy(3, false);
+  holding.length = 0.25;
+  expect_calibrated(
+      "3, straight sides", holding,
+      [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }, 0, kMany);
+}
+/// From row to row a contact goes farther than it is off: no slope leads a row back that is past a corner.
+TEST(HoldCoverage, ThreePreciseFingersWithoutCentresThatPivotAtCorners) {
+  Holding holding = noisy(3, false);
+  holding.contact_sd = 1e-4;
+  holding.angle_sd = 5e-4;
+  holding.length = 0.25;
+  expect_calibrated(
+      "3, precise, straight sides", holding,
       [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }, 0, kMany);
 }
 TEST(HoldCoverage, RobustThreeFingersWithCentresAndOutliers) {

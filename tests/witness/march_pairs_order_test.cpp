@@ -64,7 +64,7 @@ TEST(MarchPairsOrder, the_printed_order_loses_pairs_in_silence) {
     const PairMarch march(outline);
     const PairMarch printed_march = as_printed(outline);
     std::size_t all = 0, bisection = 0, printed_too = 0;
-    for (int i = 0; i < test_count(20); ++i) {
+    for (int i = 0; i < full_count(20); ++i) {
       const Planted planted(oracle, generator);
       const PairResult result = march_pairs::march(march, planted.readings);
       const PairResult printed = march_pairs::march(printed_march, planted.readings);

@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
+#include "paths.hpp"
 
 namespace pair_contradicted_test {
 
 namespace {
 
-const std::string kFolder = ROLLFIX_TESTS_DIR "/two/contradicted/";
+const std::string kFolder = checked_out("tests/two/contradicted/");
 
 }  // namespace
 

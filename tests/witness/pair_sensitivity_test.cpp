@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Readings, PairSensitivityTest, testing::Values(1U, 2U))
 TEST_P(PairSensitivityTest, agrees_with_finite_differences) {
   auto generator = test_generator();
   int compared = 0;
-  for (int k = 0; k < test_count(6); ++k) {
+  for (int k = 0; k < full_count(6); ++k) {
     const pair_cases::Case drawn = pair_cases::random_case(part_, GetParam(), generator);
     LocateOptions options;
     if (GetParam() == 1) options.facing = drawn.facing;

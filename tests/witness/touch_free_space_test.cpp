@@ -124,7 +124,7 @@ TEST(TouchFreeSpace, NoTruePoseIsLost) {
 
 TEST(TouchFreeSpace, WithoutNoiseEveryListedPoseLeavesThePathsFree) {
   int gone = 0;
-  for (int c = 0; c < test_count(8); ++c) {
+  for (int c = 0; c < full_count(8); ++c) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(c) + 500);
     const Part part = part_of(c, generator);
     const double size = diagonal(part), radius = 0.03 * size, slack = 0.004 * size;
