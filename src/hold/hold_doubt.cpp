@@ -28,6 +28,9 @@ namespace {
 constexpr double kCornerShare = 1e-3;
 // A measurement of which the rest of its row leaves less than this share of the information can't be tested.
 constexpr double kTold = 1e-6;
+// Where a normal error is four standard deviations off its square is 10.6 of its own: (10.6 / 4)^2 times its variance,
+// of which one is counted already.
+constexpr double kArmTail = 6;
 // Rows, evenly spread, before which each finger may have slipped.
 constexpr std::size_t kSlipPlaces = 16;
 
@@ -116,7 +119,13 @@ double HoldFit::p_of_measurement(const HeldState& state, std::size_t row, std::s
   if (one.blur_size > kCornerShare) return 1;
   const Eigen::Matrix3d shared = one.information * one.by_pose;
   // W - W A P^-1 A^T W is the covariance of `pull` = W r, the pose being fitted with this measurement.
-  const Eigen::Matrix3d left = one.information - shared * pose_covariance * shared.transpose();
+  Eigen::Matrix3d left = one.information - shared * pose_covariance * shared.transpose();
+  // What the arm is short of, n^2 / (2 r), is the square of a normal error.
+  const HeldContact& contact = rows_.rows[row].contacts[finger];
+  const double shorter = one.error * one.error * contact.finger_curvature;
+  const Eigen::Vector3d arm =
+      one.information.leftCols<2>() * Vec2(-std::sin(contact.tangent), std::cos(contact.tangent)) * shorter;
+  left += 0.5 * kArmTail * arm * arm.transpose();
   const Eigen::Vector3d pull = one.information * one.residual;
   if (!rows_.errors[finger].has_place) {
     const bool is_told = left(2, 2) > kTold * one.information(2, 2);
