@@ -300,7 +300,7 @@ class HoldWeighing {
     // Rows of one pivot are at one place but for their errors.
     std::ranges::sort(ways);
     const auto is_same = [&](double one, double other) { return other - one < fit.rows().errors[finger].travel; };
-    ways.erase(std::ranges::unique(ways, is_same).begin(), ways.end());
+    ways.erase(std::unique(ways.begin(), ways.end(), is_same), ways.end());
     return ways;
   }
 
