@@ -19,11 +19,12 @@
 namespace rollfix::hold {
 namespace {
 
-constexpr std::size_t kPoints = 128;  // for each direction
-constexpr double kCloudEnd = 12.5;    // below the highest density by this much nothing counts: five standard deviations
-constexpr double kStep = 1.0 / 24;    // of a set's width, from point to point on the way to the continuum's ends, ...
-constexpr int kHalvings = 6;          // ... and so often halved there
-constexpr double kThin = 0.25;        // fewer of the points count: they are drawn again, closer together
+constexpr std::size_t kPointsOfCloud = 128;  // for each direction
+constexpr double kCloudEnd = 12.5;  // below the highest density by this much nothing counts: five standard deviations
+constexpr double kCloudStep =
+    1.0 / 24;                   // of a set's width, from point to point on the way to the continuum's ends, ...
+constexpr int kHalvings = 6;    // ... and so often halved there
+constexpr double kThin = 0.25;  // fewer of the points count: they are drawn again, closer together
 
 /// By Newton's method, from above.
 double generalized_golden_ratio(std::size_t d) {
@@ -51,7 +52,7 @@ class Cloud {
   }
 
  private:
-  std::size_t count() const { return kPoints * held_.size(); }
+  std::size_t count() const { return kPointsOfCloud * held_.size(); }
 
   /// From the start to both sides, with everything else fitted, as far as it counts.
   Interval extent(Eigen::Index axis) {
@@ -60,7 +61,7 @@ class Cloud {
     Interval extent{from, from};
     for (const int direction : {-1, 1}) {
       HoldNode at = start_;
-      double step = kStep * std::sqrt(12.0) * scale_(axis);
+      double step = kCloudStep * std::sqrt(12.0) * scale_(axis);
       for (int halved = 0; halved <= kHalvings && std::abs(at.state.unknowns(axis) - from) < room;) {
         beat();
         Unknowns unknowns = at.state.unknowns;
