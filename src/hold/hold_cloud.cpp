@@ -20,11 +20,10 @@ namespace rollfix::hold {
 namespace {
 
 constexpr std::size_t kPointsOfCloud = 128;  // for each direction
-constexpr double kCloudEnd = 12.5;  // below the highest density by this much nothing counts: five standard deviations
-constexpr double kCloudStep =
-    1.0 / 24;                   // of a set's width, from point to point on the way to the continuum's ends, ...
-constexpr int kHalvings = 6;    // ... and so often halved there
-constexpr double kThin = 0.25;  // fewer of the points count: they are drawn again, closer together
+constexpr double kCloudEnd = 12.5;           // below the highest density by this much nothing counts: five sd
+constexpr double kCloudStep = 1.0 / 24;      // of a set's width, from point to point to the continuum's ends, ...
+constexpr int kHalvings = 6;                 // ... and so often halved there
+constexpr double kThin = 0.25;               // fewer of the points count: they are drawn again, closer together
 
 /// By Newton's method, from above.
 double generalized_golden_ratio(std::size_t d) {
