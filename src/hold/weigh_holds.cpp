@@ -19,16 +19,17 @@
 namespace rollfix::hold {
 namespace {
 
-constexpr std::size_t kLooks = 1200;      // at places of all sets, to choose from where to start
-constexpr std::size_t kAllStarts = 64;    // as many of them at least, the best ones: of 16 a true place got lost, ...
-constexpr double kCloseStarts = 0.04;     // ... and no two of a set that are closer than this share of it
-constexpr std::size_t kGlanceLooks = 96;  // the same at a glance, ...
-constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start, ...
-constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
-constexpr int kNudges = 4;                // to both sides, of a contact's error each, ...
-constexpr double kFitsNowhere = 1e-6;     // ... where all rows are less probable
-constexpr int kCornerRounds = 8;          // of moving a finger to where one of its rows is at a corner, ...
-constexpr double kCornerSteps = 2;        // ... no more than so many steps from row to row away
+constexpr std::size_t kLooks = 1200;        // at places of all sets, to choose from where to start
+constexpr std::size_t kAllStarts = 64;      // as many of them at least, the best ones: of 16 a true place got lost, ...
+constexpr double kCloseStarts = 0.04;       // ... and no two of a set that are closer than this share of it
+constexpr std::size_t kGlanceLooks = 96;    // the same at a glance, ...
+constexpr std::size_t kGlanceStarts = 2;    // ... of each set from where to start, ...
+constexpr std::size_t kGlanceOptima = 4;    // ... and the best of all that are looked at by all rows
+constexpr int kNudges = 4;                  // to both sides, of a contact's error each, ...
+constexpr double kFitsNowhere = 1e-6;       // ... where all rows are less probable
+constexpr std::size_t kMostToCorners = 24;  // so many optima are looked at, the best ones, ...
+constexpr int kCornerRounds = 8;            // ... moving a finger to where one of its rows is at a corner, ...
+constexpr double kCornerSteps = 2;          // ... no more than so many steps from row to row away
 constexpr double kHopeless = 60;   // an optimum that costs so much more than the best is about exp(-30) as likely
 constexpr double kWideHold = 0.1;  // of the perimeter: a place that is known no better is a continuum
 
@@ -211,6 +212,7 @@ class HoldWeighing {
     if (at_a_glance_ && rough.size() > kGlanceOptima) rough.resize(kGlanceOptima);
     std::vector<Optimum> optima;
     std::vector<const Optimum*> tried;
+    std::size_t to_corners = 0;  // so many were tried with a row at a corner
     double least = std::numeric_limits<double>::infinity();
     for (const Optimum& one : rough) {
       // The costs are by few rows, and by all rows they are larger, but for averages of rows. Neither this optimum nor
@@ -231,8 +233,10 @@ class HoldWeighing {
         // Few rows fit here, and all rows don't.
         state = nudged(fit, one.state.unknowns, state);
       }
-      if (fit.wheels() == 0 && !problem_.part.corners().empty() && !fits(fit, state)) {
+      const bool has_corners = fit.wheels() == 0 && !problem_.part.corners().empty();
+      if (has_corners && to_corners < kMostToCorners && !fits(fit, state)) {
         state = at_corners(fit, std::move(state));
+        ++to_corners;
       }
       const std::size_t set = set_with(found, state, one.set);
       // The fit has left all sets: its place was excluded by the search.
