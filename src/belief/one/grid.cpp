@@ -40,6 +40,7 @@ constexpr double kSlopeSafety = 2;
 // Where all robust rows are outliers cells are no narrower than one of so many: a peak is as wide as a few deviations
 // of a row, and of sensors better than 2e-5 of the perimeter it may be lost.
 constexpr double kRobustCells = 50000;
+constexpr double kRobustCellsToWeigh = 5000;  // of one explanation among many
 // Cells whose mass is below this share of the best one's are not looked into: exp(-25) = 1e-11.
 constexpr double kNegligible = 25;
 // A cell is resolved when the distance changes by no more than this within it, in standard deviations.
@@ -259,9 +260,10 @@ Score Grid::of_rows(const GridPoint& point) const {
 }
 
 /// The larger one of what the steepness at both ends allows and of the change from one end to the other. A plateau of
-/// robust rows is looked at in kRobustCells at most: sqrt(d^2) falls to 0 within one of them.
+/// robust rows is looked at in so many cells at most: sqrt(d^2) falls to 0 within one of them.
 double Grid::rate_of(const Score& lo, const Score& hi, double h) const {
-  const double plateau = std::sqrt(std::min(lo.cost, hi.cost)) * kRobustCells / length_;
+  const double cells = options_.by_rows ? kRobustCellsToWeigh : kRobustCells;
+  const double plateau = std::sqrt(std::min(lo.cost, hi.cost)) * cells / length_;
   const double steep = std::min(std::sqrt(std::max(lo.steepness, hi.steepness)), plateau);
   return std::max({std::sqrt(std::max(lo.information, hi.information)), steep,
                    std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h});
