@@ -60,7 +60,7 @@ void slip(FingerRows& rows, const std::vector<double>& places, double radius, do
 TEST(SlippingPair, a_flat_side_leaves_open_when_its_rounding_comes) {
   const Part part(gallery("rounded-rectangle,width=6,height=2,r=0.3"));
   int held = 0;
-  const int count = test_count(40);
+  const int count = test_count(12);
   for (int k = 0; k < count; ++k) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(k) + 1);
     NoisyRoll roll = without_slip(part, generator());

@@ -102,6 +102,7 @@ class PointScorer {
 
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 inline constexpr std::size_t kMostPoints = 400000;
+inline constexpr std::size_t kMostPointsToWeigh = 50000;  // one explanation among many
 
 /// Gives a point back to where its memory came from.
 struct GiveBack {

@@ -239,7 +239,7 @@ struct OneFingersGrid {
         nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part)), !options.by_rows,
               turns_to_and_fro(part)),
         grid(boundary, errors, options, part.boundary(), corner_length(curvature, part), has_first ? &centres : nullptr,
-             std::pmr::get_default_resource(), kMostPoints) {}
+             std::pmr::get_default_resource(), options.by_rows ? kMostPointsToWeigh : kMostPoints) {}
   OneFingersGrid(const OneFingersGrid&) = delete;
   OneFingersGrid& operator=(const OneFingersGrid&) = delete;
 
