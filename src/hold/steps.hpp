@@ -79,7 +79,7 @@ struct Optimum {
   std::size_t set = 0;
 };
 
-/// Where nothing is held, a standard deviation of each unknown; see scales_in.
+/// Of each unknown the standard deviation that it has where no measurement determines it.
 using Scale = Unknowns;
 
 /// The inverse of an information matrix in which no direction is known worse than its scale, log det of what was

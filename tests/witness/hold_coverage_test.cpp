@@ -85,6 +85,7 @@ Part rounded(int number, std::mt19937_64& /*generator*/) {
   return rollfix::load_part(
       fmt::format("gallery:rounded-rectangle,width=1.5,height={},r={}", 0.8 + 0.05 * (number % 5), radius));
 }
+Part sharp(int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }
 Part flat(int number, std::mt19937_64& generator) { return number % 2 == 0 ? random_polygon(generator) : bracket(); }
 
 /// `outliers`: a share of all measurements that are anything.
@@ -137,17 +138,13 @@ TEST(HoldCoverage, ThreeFingersWithCentresThatPivotAtCorners) {
   Holding holding = noisy(3, true);
   holding.length = 0.25;
   holding.rows = 100;
-  expect_calibrated(
-      "3, x y, over corners", holding,
-      [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }, 0, kMany);
+  expect_calibrated("3, x y, over corners", holding, sharp, 0, kMany);
 }
 /// Where normals are all that is known, two and three first contacts are free: no ridge, but a cloud.
 TEST(HoldCoverage, ThreeFingersWithoutCentresOnStraightSides) {
   Holding holding = noisy(3, false);
   holding.length = 0.25;
-  expect_calibrated(
-      "3, straight sides", holding,
-      [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); }, 0, kMany);
+  expect_calibrated("3, straight sides", holding, sharp, 0, kMany);
 }
 /// From row to row a contact goes farther than it is off: no slope leads a row back that is past a corner.
 TEST(HoldCoverage, ThreePreciseFingersWithoutCentresThatPivotAtCorners) {
@@ -155,8 +152,7 @@ TEST(HoldCoverage, ThreePreciseFingersWithoutCentresThatPivotAtCorners) {
   holding.contact_sd = 1e-4;
   holding.angle_sd = 5e-4;
   holding.length = 0.25;
-  expect_calibrated("3, precise, straight sides", holding,
-                    [](int /*number*/, std::mt19937_64& generator) { return random_polygon(generator); });
+  expect_calibrated("3, precise, straight sides", holding, sharp);
 }
 TEST(HoldCoverage, RobustThreeFingersWithCentresAndOutliers) {
   expect_calibrated("3, x y, robust, 2 % outliers", noisy(3, true), smooth, 0.02, kSlow);
