@@ -16,6 +16,8 @@
 //   f'(s)           kappa(s + L) - kappa(s): `slope()`, of `end_curvature` and `start_curvature`
 //   f''             its sign, where it is known: `bend`
 //   tolerance       |f| <= `tolerance_` is an answer, |f| <= `kTurnAccuracy` is 0; radians
+//   strip           f is no further from its chord than a quarter of each curvature's change times the width: `is_far`
+//                   (root_search.hpp), which leaves most intervals
 // Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/search.md, "Once per reading", steps 3 to 5. An extremum
 // is bracketed by Alefeld, Potra and Shi, "Algorithm 748: enclosing zeros of continuous functions" (1995).
 // Idea: on a spiral kappa is monotone, so that its values at both ends of an interval bound f', and with f at the ends

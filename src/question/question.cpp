@@ -106,15 +106,10 @@ constexpr std::array<Reason, 6> kOfRollsAtRest = {{
 }};
 
 // Of several fingers on a part that moves.
-constexpr std::array<Reason, 9> kOfMoving = {{
+constexpr std::array<Reason, 4> kOfMoving = {{
     {"reading", "{} are taken from logs"},
     {"facing", "logs of u and psi contain it"},
-    {"prior", "it is not taken with {}"},
-    {"heading", "{} tell how the part lies themselves"},
-    {"pose", "{} tell how the part lies themselves"},
     {"direction", "logs of u and psi contain it"},
-    {"robust", "outliers are not looked for with {}"},
-    {"may_overlap", "overlapping fingers are not looked for with {}"},
     {"clear", "it is about touches"},
 }};
 
@@ -250,7 +245,6 @@ void require_one_finger(const std::vector<Finger>& fingers, std::size_t most) {
   throw InputError(fmt::format("`finger`: expected one, which is lifted in between, found {}", fingers.size()));
 }
 
-/// In a message: how the fingers of this part are told.
 /// Throws InputError where no finger's shape is known.
 void require_fingers(const HoldProblem& problem) {
   if (!problem.fingers.empty()) return;
