@@ -73,7 +73,7 @@ struct Verdict {
     ambiguous,     // several, or a stretch
     unobservable,  // all the way round a boundary fits: no such roll can tell
     inconsistent,  // nothing fits
-    undecided      // the search is incomplete; with noise more than 5 % of the probability is not resolved
+    undecided      // the search is incomplete; with noise more than 5 % of the probability is unresolved
   };
   Name name = undecided;
   std::size_t places = 0;     // of ambiguous: that remain, and ...

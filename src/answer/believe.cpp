@@ -28,31 +28,25 @@ void add_contacts(const Problem& problem, const Observation& observed, std::size
   }
 }
 
-}  // namespace
-
-/// Readings count as lengths and turns from the first contact.
-LogKind kind_of(const Problem& problem) {
-  return problem.measured.is_log() ? problem.measured.log->kind : LogKind::travelled;
-}
-
-const char* name_of(const PosePrior& pose) { return std::isinf(pose.place_sd) ? "heading" : "pose"; }
-
-void require_noise(const Problem& problem) {
-  if (problem.noise) return;
-  if (problem.prior) throw InputError("`prior` weighs places against noisy readings: give `noise` as well");
-  if (problem.pose) {
-    throw InputError(fmt::format("`{}` is weighed against noisy rows: give `noise` as well", name_of(*problem.pose)));
+/// Throws InputError: the rows do not tell how the part lies, or not as finely as `pose` says it.
+void require_pose(const Problem& problem, const Observation& observed, bool has_centres) {
+  const PosePrior& pose = *problem.pose;
+  if (!observed.contacts || problem.fingers.empty()) {
+    const char* const found = !problem.measured.is_log() ? "readings"
+                              : !observed.contacts       ? "one of lengths and turns"
+                                                         : "no finger";
+    throw InputError(fmt::format(
+        "`{}`: a finger tells how the part lies by u and psi, expected a log of them, found {}", name_of(pose), found));
   }
-  if (problem.robust) throw InputError("`robust` is about noise: give `noise` as well");
+  if (std::isfinite(pose.place_sd) && !has_centres) {
+    throw InputError(
+        "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
+  }
+  // A standard deviation below the accuracy of arc lengths would be lost in rounding.
+  require_not_lost(problem.part, pose.place_sd, "a pose with a standard deviation", "");
 }
 
-/// 1 / r of a disk, 0 of a jaw; of an outline at the contact, or at u = 0 where the log has no u.
-double finger_curvature(const Problem& problem, std::size_t which, std::size_t row) {
-  if (problem.fingers.empty()) return 0;
-  // Where u is wrapped makes no difference to the curvature there.
-  const double u = kind_of(problem) == LogKind::contact ? problem.measured.log->fingers[which].u[row] : 0;
-  return finger_of(problem.fingers, which)->curvature(u);
-}
+}  // namespace
 
 /// Checks that log and noise go together, then hands the rows to the belief, one sample each. Throws InputError:
 /// position noise or a pose without centres, a pose without u and psi, drift without times.
@@ -82,20 +76,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.within = supposed.within;
   // The first contact of typed readings has no error of its own.
   options.bare = !problem.measured.is_log();
-  if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
-    const char* const found = !problem.measured.is_log() ? "readings"
-                              : !observed.contacts       ? "one of lengths and turns"
-                                                         : "no finger";
-    throw InputError(
-        fmt::format("`{}`: a finger tells how the part lies by u and psi, expected a log of them, found {}",
-                    name_of(*problem.pose), found));
-  }
-  if (problem.pose && std::isfinite(problem.pose->place_sd) && !has_centres) {
-    throw InputError(
-        "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
-  }
-  // A standard deviation below the accuracy of arc lengths would be lost in rounding.
-  if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
+  if (problem.pose) require_pose(problem, observed, has_centres);
   Belief belief(problem.part, kind_of(problem), options, contacts);
   const bool has_times = problem.measured.is_log() && !problem.measured.log->time.empty();
   require_times(*problem.noise, has_times, problem.measured.is_log() ? problem.measured.log->name : "`readings`");

@@ -234,13 +234,3 @@ void drop_impossible(const Problem& problem, const Observation& observed, Answer
 }
 
 }  // namespace rollfix::answer
-
-namespace rollfix {
-
-bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
-
-Reach reach_of(const Part& part, const Finger& finger) {
-  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
-}
-
-}  // namespace rollfix

@@ -84,6 +84,12 @@ Ambiguity ambiguity_of(const Part& part, int share, int rolls) {
 
 }  // namespace
 
+bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
+
+Reach reach_of(const Part& part, const Finger& finger) {
+  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
+}
+
 /// Exact but for rounding, in O(n) spirals.
 BoundingBox bounding_box(const Part& part) {
   const TurningFunction& turning = part.turning();

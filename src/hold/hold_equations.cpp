@@ -9,13 +9,15 @@
 #include "part/turning_range.hpp"
 
 // Notation as in hold_fit.cpp:
-//   J, c            a corner's turn and its place; r: `pivot`
+//   J, c            a corner's turn and its place; rho: `pivot`, the finger's radius
 //   d = (s - c)/sd  how far s is past it, in standard deviations: `d`; Phi(d): `behind`, its density phi(d): `bell`
-//   Phi(-d), Phi(d), (r J / sd) phi(d)   how likely a contact that was felt at s is before, behind and at the corner:
-//                   a finger whose centre goes evenly stays at it for r J; `at` is the last
-//   d, r            residuals of the contact's place in the world and of its tangent: `Look::residual`
-//   C               their covariance: position, the orientation by its lever w, and the contact's error n, which turns
-//                   the normal by (kappa + kappa_finger) n and nothing else; at a corner see `pivot`
+//   Phi(-d), Phi(d), (rho J / sd) phi(d)   how likely a contact that was felt at s is before, behind and at the corner:
+//                   a finger whose centre goes evenly stays at it for rho J; `at` is the last
+//   r, t            residuals of the contact's place in the world and of its tangent: `Look::residual`
+//   C               their covariance: position, the orientation by its lever l (Q l is l turned by a right angle), and
+//   the
+//                   contact's error n, which turns the normal by (kappa + kappa_finger) n and nothing else; at a corner
+//                   see `pivot`, where docs/two_fingers.md has w for `share`
 //   P, B, M         blocks of a row's normal equations: of its pose, mixed, of the unknowns: RowEquations
 // Idea: before a corner Theta is lower by J than behind, and at it anything between alike. Elsewhere Theta is straight
 // over so short a way. docs/two_fingers.md, "The errors".
@@ -142,22 +144,32 @@ HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::si
   sight.s = s;
   sight.stretch = stretch;
   if (errors.has_place) sight.point = point_about(part_, s);
-  // Lawson's weights, of best_worst, times the rows that this one is the mean of.
-  const double times = weight(row, finger) * rows_.rows[row].weight;
-  if (!rows_.has_noise) {
-    if (errors.has_place) sight.information(0, 0) = sight.information(1, 1) = times / (errors.place * errors.place);
-    // An angle that is exact beside places that are not would only cost digits.
-    const double angle = std::max(errors.angle, wheels() == 0 ? 0 : errors.place / part_.perimeter());
-    sight.information(2, 2) = times / (angle * angle);
-    return sight;
+  if (rows_.has_noise) {
+    weigh(sight, contact, errors, rows_.rows[row].weight);
+  } else {
+    // Lawson's weights, of best_worst, times the rows that this one is the mean of.
+    weigh_exactly(sight, errors, weight(row, finger) * rows_.rows[row].weight);
   }
+  return sight;
+}
+
+/// Without noise: the tolerances in place of standard deviations. `times`: how often it counts.
+void HoldFit::weigh_exactly(Sight& sight, const HeldErrors& errors, double times) const {
+  if (errors.has_place) sight.information(0, 0) = sight.information(1, 1) = times / (errors.place * errors.place);
+  // An angle that is exact beside places that are not would only cost digits.
+  const double angle = std::max(errors.angle, wheels() == 0 ? 0 : errors.place / part_.perimeter());
+  sight.information(2, 2) = times / (angle * angle);
+}
+
+/// With noise: C of a row that is the mean of `rows`.
+void HoldFit::weigh(Sight& sight, const HeldContact& contact, const HeldErrors& errors, double rows) const {
   // Standard deviation of the normal by the contact's error: part and finger both turn under it.
   const double bend = (sight.at.curvature + contact.finger_curvature) * errors.travel;
   const double angle = errors.angle * errors.angle;
   // Means like this one that may share one pivot.
-  const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
-  // Variance of r without corners, ...
-  const double plain = (angle + bend * bend) / rows_.rows[row].weight;
+  const double alike = std::max(1.0, contact.rows_alike / rows);
+  // Variance of t without corners, ...
+  const double plain = (angle + bend * bend) / rows;
   // ... and by corners: n rows that share one unknown are off by no more than independent ones with n times the
   // variance each (Cauchy-Schwarz).
   const double corner = sight.at.variance * alike;
@@ -166,44 +178,49 @@ HoldFit::Sight HoldFit::sight(double s, double stretch, std::size_t row, std::si
   sight.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
   sight.plain = plain;
   sight.blur_size = std::log1p(corner / plain) / alike;
-  // Where it is not, r is linear in n, and n is eliminated by C itself.
-  const bool is_bent = is_uneven(part_, sight.at, s, errors);
-  sight.error = errors.travel / std::sqrt(rows_.rows[row].weight);
-  if (!errors.has_place) {
-    if (is_bent) {
-      // Without x and y the orientation alone is left of C.
-      sight.bare_information = Eigen::Matrix3d::Zero();
-      (*sight.bare_information)(2, 2) = rows_.rows[row].weight / angle;
-      sight.bare_log_size = std::log(angle / rows_.rows[row].weight);
-    }
-    // det C counts the corner by its share only, C itself in full.
-    sight.information(2, 2) = 1 / (plain + corner);
-    sight.plain_information(2, 2) = 1 / plain;
-    sight.log_size = std::log(plain) + sight.blur_size;
-    return sight;
+  sight.error = errors.travel / std::sqrt(rows);
+  // Where the normal turns unevenly, t is linear in n, and n is eliminated by C itself.
+  const bool is_bent = is_uneven(part_, sight.at, sight.s, errors);
+  if (errors.has_place) {
+    weigh_place(sight, contact, errors, {rows, bend, corner, is_bent});
+    return;
   }
-  // An error a of the orientation moves q by a J w and turns the tangent by a.
+  if (is_bent) {
+    // Without x and y the orientation alone is left of C.
+    sight.bare_information = Eigen::Matrix3d::Zero();
+    (*sight.bare_information)(2, 2) = rows / angle;
+    sight.bare_log_size = std::log(angle / rows);
+  }
+  // det C counts the corner by its share only, C itself in full.
+  sight.information(2, 2) = 1 / (plain + corner);
+  sight.plain_information(2, 2) = 1 / plain;
+  sight.log_size = std::log(plain) + sight.blur_size;
+}
+
+/// C of a contact whose place in the world is measured as well.
+void HoldFit::weigh_place(Sight& sight, const HeldContact& contact, const HeldErrors& errors, const TurnErrors& turn) {
+  // An error a of the orientation moves the contact by a Q l and turns the tangent by a.
   const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
-  Eigen::Matrix3d covariance = angle * lever * lever.transpose();
+  Eigen::Matrix3d covariance = errors.angle * errors.angle * lever * lever.transpose();
   covariance(0, 0) += errors.place * errors.place;
   covariance(1, 1) += errors.place * errors.place;
-  // n^2 / (2 r) along the normal, whose mean is in `at`: its variance is half the square of n's over r.
+  // n^2 / (2 rho) along the normal, rho being the finger's radius, whose mean is in `at`: its variance is half the
+  // square of n's over rho.
   const Vec2 normal(-std::sin(contact.tangent), std::cos(contact.tangent));
   const double shorter = errors.travel * errors.travel * contact.finger_curvature;
   covariance.topLeftCorner<2, 2>() += 0.5 * shorter * shorter * normal * normal.transpose();
-  if (is_bent) {
-    const Eigen::Matrix3d bare = covariance / rows_.rows[row].weight;
+  if (turn.is_bent) {
+    const Eigen::Matrix3d bare = covariance / turn.rows;
     sight.bare_information = bare.inverse();
     sight.bare_log_size = std::log(bare.determinant());
   }
-  // n adds to the variance of r alone: it moves q and L alike, so that on the part the contact stays where it is.
-  covariance(2, 2) += bend * bend;
-  covariance /= rows_.rows[row].weight;
+  // n adds to the variance of t alone: it moves the contact and L alike, so that on the part it stays where it is.
+  covariance(2, 2) += turn.bend * turn.bend;
+  covariance /= turn.rows;
   sight.log_size = std::log(covariance.determinant()) + sight.blur_size;
   sight.plain_information = covariance.inverse();
-  covariance(2, 2) += corner;
+  covariance(2, 2) += turn.corner;
   sight.information = covariance.inverse();
-  return sight;
 }
 
 /// Of all fingers at a row. They depend on the first contacts and stretches alone, so that one set serves all poses
@@ -217,7 +234,7 @@ std::vector<HoldFit::Sight> HoldFit::sights_at(const HeldState& state, std::size
   return sights;
 }
 
-/// Eliminates n where the normal turns unevenly over it: r is taken as linear about the n that is most probable beside
+/// Eliminates n where the normal turns unevenly over it: t is taken as linear about the n that is most probable beside
 /// the row's other measurements (errors in variables, docs/two_fingers.md, "How three fingers are searched").
 void HoldFit::bend(Look& look, double finger_curvature) const {
   const Eigen::Matrix3d& bare = *look.bare_information;
@@ -258,7 +275,7 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
     n += step;
     if (is_last) break;
   }
-  // The tangent line of the turn at this n, taken back to n = 0: r stays linear in the place.
+  // The tangent line of the turn at this n, taken back to n = 0: t stays linear in the place.
   const double curvature = curvature_at(part_, look.s + n);
   look.residual(2) -= turn_from(part_, look.s, n) - curvature * n;
   look.by_place(2) = -curvature;

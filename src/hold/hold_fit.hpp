@@ -143,7 +143,18 @@ class HoldFit {
 
  private:
   struct Sight;
+  /// What turns a row's normal beside its orientation: a row that is the mean of so many; by the contact's error, a
+  /// standard deviation, unevenly or not; by corners, a variance.
+  struct TurnErrors {
+    double rows = 1;
+    double bend = 0;
+    double corner = 0;
+    bool is_bent = false;
+  };
   Sight sight(double s, double stretch, std::size_t row, std::size_t finger) const;
+  void weigh_exactly(Sight& sight, const HeldErrors& errors, double times) const;
+  void weigh(Sight& sight, const HeldContact& contact, const HeldErrors& errors, double rows) const;
+  static void weigh_place(Sight& sight, const HeldContact& contact, const HeldErrors& errors, const TurnErrors& turn);
   std::vector<Sight> sights_at(const HeldState& state, std::size_t row) const;
   struct Look;
   Look look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const;
@@ -282,8 +293,8 @@ struct HoldFit::Sight {
   double log_size = 0;                                          // log det C, corners by their share
   double blur_size = 0;                                         // of it what corners add
   double angles = 1;                                            // numbers that the angle counts as
-  double plain = 0;                                             // variance of r without corners
-  double turn_variance = 0;                                     // of r without n, with what a corner adds
+  double plain = 0;                                             // variance of t without corners
+  double turn_variance = 0;                                     // of t without n, with what a corner adds
   double s = 0;                                                 // the contact's place, z + L / (1 + e)
   double stretch = 0;                                           // e
   // Where the normal turns unevenly over the contact's error n: without n.
@@ -292,7 +303,7 @@ struct HoldFit::Sight {
   double error = 0;  // standard deviation of n
 };
 
-/// A contact's residuals with their derivatives: of d (two rows) and of r.
+/// A contact's residuals with their derivatives: of r (two rows) and of t.
 struct HoldFit::Look : Sight {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();     // a row of each residual; columns A.x, A.y, phi
