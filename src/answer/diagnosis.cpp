@@ -1,24 +1,21 @@
 #include "steps.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "explanations.hpp"
 #include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:
-//   chi^2, nu       squares of what the rows are off in standard deviations, and their degrees of freedom: Fit
-//   k               sqrt(chi^2 / nu): rows as noisy as they are have the log evidence + chi^2 (1 - 1 / k^2) / 2 - nu
-//                   log k
 //   odds            log of how much likelier the rows are with a mistake than without: `Diagnosis::log_odds`
 //   stretch         by how much a mistake stretches the numbers of a row, and their density with them
 // Follows docs/belief.md, "What may be wrong".
 // Idea: each usual mistake is mended and the rows are weighed again, by a few of them first. Those that explain the
-// rows are said, the likeliest first; else those with which they fit far better.
+// rows are said, the likeliest first; else those with which they fit far better: explanations.hpp.
 namespace rollfix::answer {
 namespace {
 
@@ -28,28 +25,8 @@ constexpr double kOtherScale = 1;
 constexpr double kSameScale = 3;
 // What a few rows fit no better than this, and not much better than before, is not looked at with all of them.
 constexpr double kWorthALook = 1.5;
-// An explanation with which the rows are off by this share of what they are without it is better, where none is right.
-constexpr double kMuchBetter = 0.6;
-// No more rows than this share, or this many, are outliers.
-constexpr double kMostStrayShare = 0.05;
-constexpr double kMostStray = 3;
-// An explanation is the likelier one where its evidence is larger, in steps of this much of a logarithm: what is about
-// as likely stays in the order of how common it is.
-constexpr double kEvidenceStep = 6;
-// ... and what is this much less likely than the likeliest is not worth a word.
-constexpr double kFarLessLikely = 12;
 // What a trial leaves open of the probability.
 constexpr double kMostLeftOpen = 0.5;
-// Rows that are this much less noisy than said are exact.
-constexpr double kLeastNoise = 1e-3;
-// Slip of so much per length all along, and five times as much here and there, is rarely stated beforehand; the
-// larger the rarer: the logarithm of the odds against it. The largest explains nearly anything, and takes long: it is
-// tried where nothing else explains the rows.
-struct RareSlip {
-  double slip;
-  double log_odds;
-};
-constexpr std::array<RareSlip, 2> kUnsaidSlips = {{{0.04, 6}, {0.2, 18}}};
 // What would leave less than this of a roll, radians, is no explanation where of the chi-square that is to be expected
 // less than this share is left as well.
 constexpr double kShortRoll = 1;
@@ -61,15 +38,8 @@ constexpr double kUnsaidGyro = 0.03;
 constexpr double kOddsAgainstGyro = 2;
 constexpr double kOddsAgainstGyroOfPsi = 6;
 
-/// A problem as it would be without a mistake, and what the rows make of it.
-struct Trial {
-  Diagnosis diagnosis;
-  bool is_right = false;  // the rows fit
-  double log_evidence = 0;
-};
-
 /// Tries each mistake once and keeps those that explain the rows. The order of trying is the order of how common
-/// mistakes are: the final sort is stable.
+/// mistakes are.
 class Diagnostician {
  public:
   Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
@@ -95,17 +65,7 @@ class Diagnostician {
     try_gyroscope();
     if (!problem_.robust) try_robust();
     try_slip();
-    // Right explanations first, then by evidence in steps.
-    std::stable_sort(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
-      return a.is_right != b.is_right ? a.is_right : steps_of(a) > steps_of(b);
-    });
-    std::vector<Diagnosis> found;
-    for (Trial& trial : trials_) {
-      const Trial& likeliest = trials_.front();
-      // Explanations that only fit better are not listed beside right ones.
-      if (trial.is_right != likeliest.is_right) break;
-      if (trial.log_evidence > likeliest.log_evidence - kFarLessLikely) found.push_back(std::move(trial.diagnosis));
-    }
+    std::vector<Diagnosis> found = the_likeliest(std::move(trials_));
     if (found.empty()) {
       // The size of the errors is as stated, only their likeness is not: correlation.
       found.push_back(as_it_is(as_said_.sigmas <= Fit::kMostSigmas ? Cause::correlation : Cause::part));
@@ -114,8 +74,6 @@ class Diagnostician {
   }
 
  private:
-  static double steps_of(const Trial& trial) { return std::round(trial.log_evidence / kEvidenceStep); }
-
   /// Explanations differ in their noise: they are compared by the same rows, joined for their number alone. With
   /// `rows`, at a glance by so many.
   static std::optional<Belief> by_rows(const Problem& problem, const Observation& observed, std::size_t rows = 0) {
@@ -125,12 +83,8 @@ class Diagnostician {
     return believe(problem, observed, supposed);
   }
 
-  /// Log evidence, with the noise scaled by k = sqrt(chi^2 / nu), as the rows themselves seem to have it: chi^2 becomes
-  /// nu, and each of nu degrees of freedom costs log k. So explanations with too much noise stated have no advantage.
   static double with_noise_as_it_seems(const Evidence& evidence, const Fit& fit) {
-    const double times = std::max(kLeastNoise, std::sqrt(fit.chi_square / std::max(1.0, fit.freedom)));
-    const double less = 0.5 * fit.chi_square * (1 - 1 / (times * times));
-    return evidence.with(1) + evidence.gathered + less - fit.freedom * std::log(times);
+    return as_noisy_as_it_seems(evidence.with(1) + evidence.gathered, fit.chi_square, fit.freedom);
   }
 
   /// Cause::noise: independent errors, larger than stated by the factor `excess`.
@@ -203,7 +157,7 @@ class Diagnostician {
   }
   /// Whether a trial with the same scale, to some standard deviations, was kept.
   bool is_tried(const Whose& whose, const SettledScale& settled) const {
-    return std::any_of(trials_.begin(), trials_.end(), [&](const Trial& trial) {
+    return std::any_of(trials_.begin(), trials_.end(), [&](const Trial<Diagnosis>& trial) {
       const Diagnosis& known = trial.diagnosis;
       return known.cause == Cause::radius && known.finger == whose &&
              std::abs(known.length_scale - settled.scale) < kSameScale * settled.sd;
@@ -249,19 +203,13 @@ class Diagnostician {
     add(std::move(diagnosis), *belief, 0, is_of_psi ? kOddsAgainstGyroOfPsi : kOddsAgainstGyro);
   }
 
-  /// By more than that the rows are noisier.
-  bool is_explained() const {
-    return std::any_of(trials_.begin(), trials_.end(),
-                       [](const Trial& trial) { return trial.is_right && trial.diagnosis.cause != Cause::noise; });
-  }
-
   /// Cause::slip: lengths are wrong here and there. The smaller slip first; it ends with the first that explains the
   /// rows.
   void try_slip() {
     for (const auto& [slip, log_odds] : kUnsaidSlips) {
       if (slip <= problem_.noise->slip) continue;
       // See `kUnsaidSlips`: the largest takes long and explains nearly anything.
-      if (slip == kUnsaidSlips.back().slip && is_explained()) return;
+      if (slip == kUnsaidSlips.back().slip && is_explained(trials_)) return;
       Problem slipping = problem_;
       slipping.noise->slip = slip;
       std::optional<Belief> belief = by_rows(slipping, observed_);
@@ -328,7 +276,7 @@ class Diagnostician {
   Fit as_said_;              // of the problem as it was stated
   double log_evidence_ = 0;  // of the same, with as much noise as the rows seem to have
   Verdict verdict_;          // of the same
-  std::vector<Trial> trials_;
+  std::vector<Trial<Diagnosis>> trials_;
   double glance_excess_ = 0;
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
+#include "explanations.hpp"
 #include "rollfix/error.hpp"
 
 // Notation:
@@ -18,15 +18,13 @@
 namespace rollfix::answer {
 namespace {
 
-// Scales of lengths are tried as far apart as this, each with an open scale about it of this standard deviation.
+// Scales of lengths are tried as far apart as this, each with an open scale about it of `kOpenScale`.
 constexpr double kScaleStep = 1.08;
-constexpr double kOpenScale = 0.04;
 // From a thousandth of what was measured, a unit that is taken for another, to where the turn forbids it.
 constexpr double kLeastScale = 0.9e-3;
 constexpr double kMostScale = 1.1e3;
-constexpr std::size_t kRadiiOfTwo = 9;  // the first of these
-constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0,   1.08,  1.16, 1.26, 2.0,
-                                                 1 / 25.4, 0.1,  10.0, 25.4, 0.001, 1000., 0.01, 100.0};
+// Of two fingers' lengths: units that are taken for others, beside `kScalesAboutOne`.
+constexpr std::array<double, 8> kUnitsOfTwo = {1 / 25.4, 0.1, 10.0, 25.4, 0.001, 1000., 0.01, 100.0};
 // ... with which the longest roll is between these, in perimeters: shorter ones say nothing, longer ones nobody rolls.
 constexpr double kLeastRollOfTwo = 0.01;
 constexpr double kMostRollOfTwo = 8;
@@ -110,10 +108,10 @@ std::vector<double> LengthScales::worth_a_look(const Whose& whose) const {
 std::vector<double> LengthScales::all(const Whose& whose) const {
   std::vector<double> scales;
   if (rows_felt(problem_, observed_).front().fingers() == 2) {
+    scales.assign(kScalesAboutOne.begin(), kScalesAboutOne.end());
     // One finger's unit is the other's as well.
-    const auto end = whose ? kScalesOfTwo.begin() + kRadiiOfTwo : kScalesOfTwo.end();
-    std::copy_if(kScalesOfTwo.begin(), end, std::back_inserter(scales),
-                 [&](double scale) { return may_be_of_two(scale) && tells_normals(whose, scale); });
+    if (!whose) scales.insert(scales.end(), kUnitsOfTwo.begin(), kUnitsOfTwo.end());
+    std::erase_if(scales, [&](double scale) { return !may_be_of_two(scale) || !tells_normals(whose, scale); });
     return scales;
   }
   for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {

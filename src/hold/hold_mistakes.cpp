@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "answer/explanations.hpp"
 #include "held_rows.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
@@ -14,7 +15,7 @@
 // Notation:
 //   trial           the problem as it would be without a mistake, and its answer; glance: by some of the rows
 //   excess          square root of chi-square over what is expected of it
-//   evidence        logarithm of the probability of all measurements, as noisy as they seem
+//   evidence        logarithm of the probability of all measurements, as noisy as they seem: answer/explanations.hpp
 // Follows docs/two_fingers.md, "What may be wrong with three fingers".
 // Idea: as of one finger and of two, see answer/diagnosis.cpp. Each mistake is undone, and the problem solved again,
 // first at a glance. The noise is then taken as large as the residuals are, so that mistakes are compared by how well
@@ -29,19 +30,12 @@ constexpr std::size_t kTrialBudget = kHoldBudget / 10;
 // At a glance what is off by more, and by much more than before, is not looked at with all rows.
 constexpr double kWorthLooking = 1.6;
 constexpr std::size_t kMostSecondLooks = 3;
-// An explanation with which the rows are off by this share of what they are without it is better, where none is right.
-constexpr double kFarBetter = 0.6;
-constexpr double kStepOfEvidence = 6;  // what is about as likely stays in the order of how common it is
-constexpr double kFarUnlikelier = 12;
 constexpr std::size_t kMostExplanations = 4;
 // Noise of logs of which none was said: shares of the perimeter, radians.
 constexpr double kSupposedLength = 3e-4;
 constexpr double kSupposedAngle = 2e-3;
-constexpr double kExactNoise = 1e-3;  // rows this much less noisy than said are exact
 constexpr double kMostNoisier = 32;
-// Scales of lengths that are tried, and the slip that leaves each open.
-constexpr std::array<double, 9> kLengthScales = {0.5, 0.79, 0.86, 0.93, 1.0, 1.08, 1.16, 1.26, 2.0};
-constexpr double kOpenSlip = 0.04;
+// Scales of lengths that are settled, the best at a glance.
 constexpr std::size_t kScalesToSettle = 2;
 constexpr int kSettleSteps = 3;
 constexpr double kScaleDiffers = 3;  // standard deviations from 1
@@ -49,13 +43,6 @@ constexpr double kScaleDiffers = 3;  // standard deviations from 1
 constexpr std::array<int, 7> kShifts = {1, 2, 3, 4, 6, 8, 12};
 constexpr double kNoiseFromAfar = 2;
 constexpr double kOddsAgainstLate = 4;
-// No more measurements are outliers than three, or this share.
-constexpr double kMostOutliers = 0.05;
-struct Slipping {
-  double slip;
-  double log_odds;
-};
-constexpr std::array<Slipping, 2> kSlips = {{{0.04, 6}, {0.2, 18}}};
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// How well an answer fits.
@@ -68,12 +55,8 @@ struct Seen {
 Seen seen(const std::optional<HoldAnswer>& answer) {
   if (!answer || answer->status != Status::complete || answer->placements.empty() || !answer->fit) return {};
   const double freedom = std::max(1, answer->fit->freedom);
-  const double excess = std::sqrt(answer->fit->chi_square / freedom);
-  // With errors t times as large, t = excess, -chi^2 / 2 becomes -chi^2 / (2 t^2), and each degree of freedom costs
-  // log t.
-  const double times = std::max(kExactNoise, excess);
-  const double less = 0.5 * answer->fit->chi_square * (1 - 1 / (times * times));
-  return {excess, answer->log_evidence + less - freedom * std::log(times)};
+  return {std::sqrt(answer->fit->chi_square / freedom),
+          as_noisy_as_it_seems(answer->log_evidence, answer->fit->chi_square, freedom)};
 }
 
 /// The answer to a mended problem, within a trial's budget; none: it is refused, as logs that nothing can have
@@ -120,20 +103,12 @@ std::optional<HoldProblem> with_open_lengths(const HoldProblem& problem, std::op
   const bool is_wheel = whose && *whose >= problem.logs.size();
   if (is_wheel) {
     const double radius = open->wheels[*whose - problem.logs.size()].radius;
-    open->noise->radius = std::hypot(open->noise->radius, kOpenSlip * radius);
+    open->noise->radius = std::hypot(open->noise->radius, kOpenScale * radius);
   } else {
-    open->noise->slip = std::hypot(open->noise->slip, kOpenSlip);
+    open->noise->slip = std::hypot(open->noise->slip, kOpenScale);
   }
   return open;
 }
-
-/// A mistake that was tried with all rows, with how likely it makes them. `is_right`: without it the rows don't
-/// contradict the noise.
-struct Trial {
-  HoldDiagnosis diagnosis;
-  bool is_right = false;
-  double evidence = 0;
-};
 
 /// A trial that is only worth it if nothing explains the rows.
 struct PutOff {
@@ -171,8 +146,8 @@ class Mistakes {
     try_stray();
     for (std::size_t k = 0; k < count_of_logs(problem_); ++k) try_late(k);
     try_slip();
-    if (std::none_of(trials_.begin(), trials_.end(), [](const Trial& trial) { return trial.is_right; })) look_again();
-    return likeliest();
+    if (std::none_of(trials_.begin(), trials_.end(), [](const auto& trial) { return trial.is_right; })) look_again();
+    return the_likeliest(std::move(trials_), kMostExplanations);
   }
 
  private:
@@ -184,7 +159,7 @@ class Mistakes {
     const double excess = glance(mended).excess;
     if (excess <= kWorthLooking) {
       add(std::move(what), mended, attempt(mended), log_odds);
-    } else if (excess < kFarBetter * glance_.excess) {
+    } else if (excess < kMuchBetter * glance_.excess) {
       put_off_.push_back({std::move(what), mended, log_odds, excess});
     }
   }
@@ -205,7 +180,7 @@ class Mistakes {
     if (!std::isfinite(now.excess)) return false;
     const bool is_right = !answer->is_contradicted();
     // Neither explains the rows nor comes much closer.
-    if (!is_right && !(now.excess < kFarBetter * as_said_.excess)) return false;
+    if (!is_right && !(now.excess < kMuchBetter * as_said_.excess)) return false;
     // What would have any place fit explains nothing.
     if (answer->verdict.name == Verdict::unobservable && !is_anything_) return false;
     what.noise = *mended.noise;
@@ -268,7 +243,7 @@ class Mistakes {
   /// are settled. `whose`: a finger's or a wheel's radius; none: all lengths.
   void try_lengths(std::optional<std::size_t> whose) {
     std::vector<std::pair<double, double>> by_evidence;
-    for (const double scale : kLengthScales) {
+    for (const double scale : kScalesAboutOne) {
       const std::optional<HoldProblem> scaled = with_open_lengths(problem_, whose, scale);
       if (!scaled) return;
       const Seen now = glance(*scaled);
@@ -331,7 +306,7 @@ class Mistakes {
     // Measurements that do not count, and rows that jump away.
     const std::size_t strays = answer->strays + answer->jumps.size();
     const auto all = static_cast<double>(count_of_logs(problem_) * problem_.logs.front().rows());
-    if (strays < 1 || static_cast<double>(strays) > std::max(3.0, kMostOutliers * all)) return;
+    if (strays < 1 || static_cast<double>(strays) > std::max(kMostStray, kMostStrayShare * all)) return;
     HoldDiagnosis what{HoldCause::stray};
     what.strays = strays;
     add(what, robust, answer);
@@ -374,18 +349,12 @@ class Mistakes {
     take(what, shifted(problem_, log, best), -kOddsAgainstLate);
   }
 
-  /// By more than that the rows are noisier.
-  bool is_explained() const {
-    return std::any_of(trials_.begin(), trials_.end(),
-                       [](const Trial& trial) { return trial.is_right && trial.diagnosis.cause != HoldCause::noise; });
-  }
-
   /// Lengths that slip: a little, then much, the latter only where nothing else explains the rows.
   void try_slip() {
-    for (const auto& [slip, log_odds] : kSlips) {
+    for (const auto& [slip, log_odds] : kUnsaidSlips) {
       // As much was stated already.
       if (slip <= problem_.noise->slip) continue;
-      if (slip == kSlips.back().slip && is_explained()) return;
+      if (slip == kUnsaidSlips.back().slip && is_explained(trials_)) return;
       HoldProblem slipping = problem_;
       slipping.noise->slip = slip;
       const std::optional<HoldAnswer> answer = attempt(slipping);
@@ -393,27 +362,12 @@ class Mistakes {
     }
   }
 
-  /// Those that explain the rows, else those that come closer, up to kMostExplanations, the likeliest first.
-  std::vector<HoldDiagnosis> likeliest() {
-    // Evidences within one step count as equal: the stable sort keeps the more common mistake first.
-    const auto steps = [](const Trial& trial) { return std::round(trial.evidence / kStepOfEvidence); };
-    std::stable_sort(trials_.begin(), trials_.end(), [&](const Trial& a, const Trial& b) {
-      return a.is_right != b.is_right ? a.is_right : steps(a) > steps(b);
-    });
-    std::vector<HoldDiagnosis> told;
-    for (Trial& trial : trials_) {
-      if (trial.is_right != trials_.front().is_right || told.size() == kMostExplanations) break;
-      if (trial.evidence > trials_.front().evidence - kFarUnlikelier) told.push_back(std::move(trial.diagnosis));
-    }
-    return told;
-  }
-
   bool has_noise_;
   HoldProblem problem_;
   Seen as_said_;
   Seen glance_;  // the same by some rows
   bool is_anything_ = false;
-  std::vector<Trial> trials_;
+  std::vector<Trial<HoldDiagnosis>> trials_;
   std::vector<PutOff> put_off_;
 };
 
