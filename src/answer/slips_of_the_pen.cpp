@@ -94,65 +94,42 @@ std::vector<ColumnSource> columns_without(Cause cause, const Log& log) {
 
 namespace {
 
-// A column of a finger's rows, as a pointer to the member.
-using Column = std::vector<double> FingerRows::*;
-
 /// `power`: 1 for degrees that were taken for radians, -1 for radians that were taken for degrees.
-SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<Column>& columns) {
+SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<RowColumn>& columns) {
   // What the numbers have to be multiplied by.
   const double factor = power > 0 ? kDegree : 1 / kDegree;
-  const auto mend = [factor, columns](FingerRows& rows) {
-    for (const Column column : columns) {
-      for (double& value : rows.*column) value *= factor;
-    }
-  };
+  const auto mend = [factor, columns](FingerRows& rows) { multiply(rows, columns, factor); };
   return {cause, mend, static_cast<double>(columns.size()) * std::log(factor)};
-}
-
-/// Between the least and the largest value; 0 without rows.
-double range_of(const std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most - *least;
 }
 
 /// Degrees that were read as radians. Mending shortens the roll 57 times: `left_of_roll` is what is left, the largest
 /// range of any of the columns.
-SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns, const std::vector<FingerRows>& fingers) {
+SlipOfThePen in_degrees(Cause cause, const std::vector<RowColumn>& columns, const std::vector<FingerRows>& fingers) {
   SlipOfThePen slip = in_other_angles(cause, 1, columns);
   // Readings: nothing says how far the columns go.
   if (fingers.empty()) return slip;
   slip.left_of_roll = 0;
   for (const FingerRows& rows : fingers) {
-    for (const Column column : columns) {
+    for (const RowColumn column : columns) {
       slip.left_of_roll = std::max(slip.left_of_roll, kDegree * range_of(rows.*column));
     }
   }
   return slip;
 }
 /// Radians that were read as degrees.
-SlipOfThePen in_radians(Cause cause, const std::vector<Column>& columns) { return in_other_angles(cause, -1, columns); }
-
-/// Other signs; the density of the numbers stays.
-SlipOfThePen the_other_way(Cause cause, const std::vector<Column>& columns) {
-  const auto mend = [columns](FingerRows& rows) {
-    for (const Column column : columns) {
-      for (double& value : rows.*column) value = -value;
-    }
-  };
-  return {cause, mend};
+SlipOfThePen in_radians(Cause cause, const std::vector<RowColumn>& columns) {
+  return in_other_angles(cause, -1, columns);
 }
 
-/// With the roundings of both columns.
-void swap_u_and_psi(FingerRows& rows) {
-  std::swap(rows.u, rows.psi);
-  std::swap(rows.place_rounding, rows.angle_rounding);
+/// Other signs; the density of the numbers stays.
+SlipOfThePen the_other_way(Cause cause, const std::vector<RowColumn>& columns) {
+  return {cause, [columns](FingerRows& rows) { multiply(rows, columns, -1); }};
 }
 
 /// The mistakes in a log of u and psi, the more common ones first. Radians are only tried where degrees were stated.
 std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& fingers) {
-  constexpr Column u = &FingerRows::u;
-  constexpr Column psi = &FingerRows::psi;
+  constexpr RowColumn u = &FingerRows::u;
+  constexpr RowColumn psi = &FingerRows::psi;
   std::vector<SlipOfThePen> slips = {{Cause::u_psi_swapped, swap_u_and_psi},
                                      the_other_way(Cause::both_clockwise, {u, psi}),
                                      the_other_way(Cause::u_clockwise, {u}),
@@ -170,8 +147,8 @@ std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& finge
 
 /// The mistakes in lengths and turns, of a log or of readings.
 std::vector<SlipOfThePen> slips_of_courses(const std::vector<FingerRows>& fingers) {
-  constexpr Column length = &FingerRows::length;
-  constexpr Column turn = &FingerRows::turn;
+  constexpr RowColumn length = &FingerRows::length;
+  constexpr RowColumn turn = &FingerRows::turn;
   std::vector<SlipOfThePen> slips = {
       the_other_way(Cause::both_clockwise, {length, turn}), the_other_way(Cause::length_backwards, {length}),
       the_other_way(Cause::turn_clockwise, {turn}), in_degrees(Cause::turn_degrees, {turn}, fingers)};
@@ -211,3 +188,24 @@ Problem without(const SlipOfThePen& slip, const Problem& problem) {
 }
 
 }  // namespace rollfix::answer
+
+namespace rollfix {
+
+void multiply(FingerRows& rows, const std::vector<RowColumn>& columns, double factor) {
+  for (const RowColumn column : columns) {
+    for (double& value : rows.*column) value *= factor;
+  }
+}
+
+void swap_u_and_psi(FingerRows& rows) {
+  std::swap(rows.u, rows.psi);
+  std::swap(rows.place_rounding, rows.angle_rounding);
+}
+
+double range_of(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least;
+}
+
+}  // namespace rollfix

@@ -108,6 +108,15 @@ struct Supposed {
 /// Nothing without noise.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});
 
+/// A column of a finger's rows.
+using RowColumn = std::vector<double> FingerRows::*;
+/// Columns that were read in another unit, or with the other sign.
+void multiply(FingerRows& rows, const std::vector<RowColumn>& columns, double factor);
+/// With the roundings of both.
+void swap_u_and_psi(FingerRows& rows);
+/// Between the least and the largest number of a column; 0 without rows.
+double range_of(const std::vector<double>& values);
+
 /// A mode that was found from the row that lies `way` behind the first contacts, led back to these.
 void to_first_contacts(const Reading& way, const Part& part, const Noise& noise, Mode& mode);
 /// Likewise where the last contacts lie `further` behind those of the last row that was weighed.

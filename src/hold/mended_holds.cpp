@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "answer/steps.hpp"
 #include "held_rows.hpp"
 #include "log/log_rows.hpp"
 #include "outline/turn.hpp"
@@ -108,30 +109,16 @@ double rows_of(const HoldProblem& problem, std::optional<std::size_t> whose) {
   return static_cast<double>(problem.logs.front().rows() * (whose ? 1 : count_of_logs(problem)));
 }
 
-/// REQUIRES at least one value.
-double range_of(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most - *least;
-}
-
-using Column = std::vector<double> FingerRows::*;
-
 /// Whether all columns have numbers as degrees of a roll would be.
-bool may_be_degrees(const HoldProblem& problem, std::optional<std::size_t> whose, const std::vector<Column>& columns) {
+bool may_be_degrees(const HoldProblem& problem, std::optional<std::size_t> whose,
+                    const std::vector<RowColumn>& columns) {
   for (std::size_t k = 0; k < count_of_logs(problem); ++k) {
     if (whose && *whose != k) continue;
-    for (const Column column : columns) {
+    for (const RowColumn column : columns) {
       if (range_of(log_of(problem, k).fingers.front().*column) < kLeastDegrees) return false;
     }
   }
   return true;
-}
-
-/// Multiplies columns by a factor.
-void times(FingerRows& rows, const std::vector<Column>& columns, double factor) {
-  for (const Column column : columns) {
-    for (double& value : rows.*column) value *= factor;
-  }
 }
 
 }  // namespace
@@ -173,7 +160,7 @@ std::vector<std::string> leave_out_jumps(const HoldProblem& problem, std::vector
 
 /// Each mistake for all logs of fingers, where no wheel is beside, and for each alone; of encoders psi alone.
 std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
-  const std::vector<Column> u{&FingerRows::u}, psi{&FingerRows::psi}, both{&FingerRows::u, &FingerRows::psi};
+  const std::vector<RowColumn> u{&FingerRows::u}, psi{&FingerRows::psi}, both{&FingerRows::u, &FingerRows::psi};
   std::vector<Mended> all;
   // `log_stretch`: 0 where only the sign changes, or where what counts keeps its unit.
   const auto add = [&](HoldCause cause, std::optional<std::size_t> whose, double log_stretch, const auto& mend) {
@@ -182,29 +169,26 @@ std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
     all.push_back({std::move(what), mended(problem, whose, mend), log_stretch});
   };
   for (const auto& whose : whose_skins(problem)) {
-    add(HoldCause::u_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, u, -1); });
-    add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, psi, -1); });
-    add(HoldCause::both_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, both, -1); });
-    add(HoldCause::u_psi_swapped, whose, 0, [](FingerRows& rows) {
-      std::swap(rows.u, rows.psi);
-      std::swap(rows.place_rounding, rows.angle_rounding);
-    });
+    add(HoldCause::u_clockwise, whose, 0, [&](FingerRows& rows) { multiply(rows, u, -1); });
+    add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { multiply(rows, psi, -1); });
+    add(HoldCause::both_clockwise, whose, 0, [&](FingerRows& rows) { multiply(rows, both, -1); });
+    add(HoldCause::u_psi_swapped, whose, 0, swap_u_and_psi);
     // Of a row one angle counts, u + psi: it is in degrees only if both are.
     if (may_be_degrees(problem, whose, u))
-      add(HoldCause::u_degrees, whose, 0, [&](FingerRows& rows) { times(rows, u, kDegree); });
+      add(HoldCause::u_degrees, whose, 0, [&](FingerRows& rows) { multiply(rows, u, kDegree); });
     if (may_be_degrees(problem, whose, psi))
-      add(HoldCause::psi_degrees, whose, 0, [&](FingerRows& rows) { times(rows, psi, kDegree); });
+      add(HoldCause::psi_degrees, whose, 0, [&](FingerRows& rows) { multiply(rows, psi, kDegree); });
     if (may_be_degrees(problem, whose, both))
       add(HoldCause::angles_degrees, whose, rows_of(problem, whose) * std::log(kDegree),
-          [&](FingerRows& rows) { times(rows, both, kDegree); });
+          [&](FingerRows& rows) { multiply(rows, both, kDegree); });
   }
   for (std::size_t k = 0; k < problem.wheels.size(); ++k) {
     if (!problem.wheels[k].log.has_encoder()) continue;
     const std::size_t whose = problem.logs.size() + k;
-    add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, psi, -1); });
+    add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { multiply(rows, psi, -1); });
     if (may_be_degrees(problem, whose, psi))
       add(HoldCause::psi_degrees, whose, rows_of(problem, whose) * std::log(kDegree),
-          [&](FingerRows& rows) { times(rows, psi, kDegree); });
+          [&](FingerRows& rows) { multiply(rows, psi, kDegree); });
   }
   return all;
 }
@@ -225,7 +209,7 @@ std::vector<Mended> without_exchanged_axes(const HoldProblem& problem) {
 std::vector<Mended> without_units(const HoldProblem& problem) {
   std::vector<Mended> all;
   if (problem.noise->position <= 0) return all;
-  const std::vector<Column> centre{&FingerRows::x, &FingerRows::y};
+  const std::vector<RowColumn> centre{&FingerRows::x, &FingerRows::y};
   for (const auto& whose : whose_logs(problem)) {
     for (const MistakenUnit& scale : kMistakenUnits) {
       HoldDiagnosis what{HoldCause::unit};
@@ -233,7 +217,7 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
       what.factor = scale.factor;
       what.unit = scale.from;
       what.into = scale.to;
-      HoldProblem without = mended(problem, whose, [&](FingerRows& rows) { times(rows, centre, scale.factor); });
+      HoldProblem without = mended(problem, whose, [&](FingerRows& rows) { multiply(rows, centre, scale.factor); });
       // The farthest that a log's first centre is from the first log's.
       double apart = 0;
       for (std::size_t k = 0; k < count_of_logs(without); ++k) {
