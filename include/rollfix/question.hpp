@@ -133,7 +133,8 @@ struct Outcome {
   std::string error{};
 };
 
-/// A solution to each question, in order; the same bits with any number of threads. Throws as `solve` of many problems.
+/// A solution to each question, in order; the same bits with any number of threads. Throws what `solve` throws but
+/// InputError, and InputError where go_on stopped it.
 std::vector<Outcome> solve(std::span<const Question> questions, const ManyOptions& options = {});
 
 }  // namespace rollfix

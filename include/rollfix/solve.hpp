@@ -28,7 +28,6 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -168,16 +167,6 @@ struct ManyOptions {
   std::function<bool(std::size_t done)> go_on{};
 };
 
-/// An answer, or why there is none: what `solve` of that problem throws as InputError.
-struct Solved {
-  std::optional<Answer> answer{};
-  std::string error{};
-};
-
-/// An answer to each problem, in order; the same bits with any number of threads. Throws what `solve` throws but
-/// InputError, and InputError where go_on stopped it.
-std::vector<Solved> solve(std::span<const Problem> problems, const ManyOptions& options = {});
-
 /// Many answers as columns, for when there are too many to keep each: placement number p of problem k is row
 /// offsets[k] + p. What is of a finger has `fingers` entries in a row, [row * fingers + finger].
 struct AnswerTable {
@@ -209,7 +198,8 @@ struct AnswerTable {
 /// threads, of each with a problem of its own. What it throws as InputError is that problem's error.
 using ProblemMaker = std::function<void(std::size_t k, Problem& problem)>;
 
-/// The answers to problems 0 to count - 1, all of as many fingers as `fingers`. Throws as `solve` of a span.
+/// The answers to problems 0 to count - 1, all of as many fingers as `fingers`; the same bits with any number of
+/// threads. Throws what `solve` throws but InputError, and InputError where go_on stopped it.
 AnswerTable solve_table(const Problem& like, std::size_t count, const ProblemMaker& make, std::size_t fingers,
                         const ManyOptions& options = {});
 

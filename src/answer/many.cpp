@@ -100,25 +100,8 @@ AnswerTable joined(std::vector<AnswerTable>& blocks, std::size_t fingers) {
 
 }  // namespace
 
-/// Each problem is solved or has the message of its InputError. Other exceptions end the run: `require_done`.
-std::vector<Solved> solve(std::span<const Problem> problems, const ManyOptions& options) {
-  std::vector<Solved> solved(problems.size());
-  Crew crew(problems.size(), 1);
-  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
-    // Problems of one block, one after the other.
-    for (std::size_t k = lo; k < hi; ++k) {
-      try {
-        solved[k].answer = solve(problems[k]);
-      } catch (const InputError& error) {
-        solved[k].error = error.what();
-      }
-    }
-  });
-  crew.require_done();
-  return solved;
-}
-
-/// `make` changes a copy of `like` into problem k; each block has its own copy.
+/// `make` changes a copy of `like` into problem k; each block has its own copy. A problem is solved or has the message
+/// of its InputError; other exceptions end the run: `require_done`.
 AnswerTable solve_table(const Problem& like, std::size_t count, const ProblemMaker& make, std::size_t fingers,
                         const ManyOptions& options) {
   std::vector<AnswerTable> blocks((count + kBlock - 1) / kBlock);

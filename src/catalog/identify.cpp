@@ -123,11 +123,8 @@ std::vector<Glance> glances_at(const Catalog& catalog, const Problem& like, cons
   // not depend on the order in which threads end.
   for (std::size_t begin = 0, end = 1; begin < parts.size(); begin = end, end = 2 * end) {
     end = std::min(end, parts.size());
-    Crew crew(end - begin, 1);
-    crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
-      for (std::size_t k = begin + lo; k < begin + hi; ++k) glances[k] = glance_at(catalog, ways, parts[k], weights);
-    });
-    crew.require_done();
+    each_of(end - begin, options,
+            [&](std::size_t k) { glances[begin + k] = glance_at(catalog, ways, parts[begin + k], weights); });
     for (std::size_t k = begin; k < end; ++k) {
       if (glances[k].weight) weights.push_back(*glances[k].weight);
     }
@@ -241,11 +238,7 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
     left = worth_a_look(catalog_, like_, bounded, found.weights, options_);
   }
   std::vector<Looked> outcomes(left.size());
-  Crew crew(left.size(), 1);
-  crew.run(options_.threads, options_.go_on, [&](std::size_t lo, std::size_t hi) {
-    for (std::size_t k = lo; k < hi; ++k) outcomes[k] = outcome_of(catalog_, like_, left[k]);
-  });
-  crew.require_done();
+  each_of(left.size(), options_, [&](std::size_t k) { outcomes[k] = outcome_of(catalog_, like_, left[k]); });
   // In the order of the parts, whichever thread was first.
   for (std::size_t k = 0; k < left.size(); ++k) {
     if (!outcomes[k].refused.empty()) found.refused.push_back({left[k], outcomes[k].refused});
@@ -278,7 +271,8 @@ void require_weighable(const Catalog& catalog, const Noise& noise) {
       noise.contact, most));
 }
 
-/// The parts that are asked for, by their places in the catalog.
+}  // namespace
+
 std::vector<std::size_t> parts_of(const Catalog& catalog, const IdentifyOptions& options) {
   std::vector<std::size_t> parts = options.among;
   if (!parts.empty()) return parts;
@@ -286,8 +280,6 @@ std::vector<std::size_t> parts_of(const Catalog& catalog, const IdentifyOptions&
   std::iota(parts.begin(), parts.end(), std::size_t{0});
   return parts;
 }
-
-}  // namespace
 
 Likeness likeness_of(const Problem& like) {
   Likeness likeness;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
+#include <limits>
 #include <utility>
 
 #include "belief/posterior.hpp"
@@ -155,11 +155,7 @@ std::vector<std::size_t> parts_left(const Catalog& catalog, const TouchProblem& 
 std::vector<TouchOutcome> touch_outcomes_of(const Catalog& catalog, const TouchProblem& like,
                                             const IdentifyOptions& options, const std::vector<std::size_t>& left) {
   std::vector<TouchOutcome> outcomes(left.size());
-  Crew crew(left.size(), 1);
-  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
-    for (std::size_t k = lo; k < hi; ++k) outcomes[k] = touch_outcome_of(catalog, like, left[k]);
-  });
-  crew.require_done();
+  each_of(left.size(), options, [&](std::size_t k) { outcomes[k] = touch_outcome_of(catalog, like, left[k]); });
   return outcomes;
 }
 
@@ -250,11 +246,7 @@ IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, 
   for (const touch::Measured& touch : touch::measured(like))
     found.tolerance.push_back({touch.place_most, touch.angle_most});
   const Doing doing("searching the catalog's parts");
-  std::vector<std::size_t> parts = options.among;
-  if (parts.empty()) {
-    parts.resize(catalog.size());
-    std::iota(parts.begin(), parts.end(), std::size_t{0});
-  }
+  const std::vector<std::size_t> parts = catalog::parts_of(catalog, options);
   found.asked = parts.size();
   found.left = catalog::parts_left(catalog, like, 1, options, parts);
   found.searched = found.left.size();

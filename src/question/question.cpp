@@ -338,17 +338,13 @@ Solution solve(const Question& question) {
 /// Questions are independent: each has a solution or a message.
 std::vector<Outcome> solve(std::span<const Question> questions, const ManyOptions& options) {
   std::vector<Outcome> outcomes(questions.size());
-  Crew crew(questions.size(), 1);
-  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
-    for (std::size_t k = lo; k < hi; ++k) {
-      try {
-        outcomes[k].solution.emplace(solve(questions[k]));
-      } catch (const InputError& error) {
-        outcomes[k].error = error.what();
-      }
+  each_of(questions.size(), options, [&](std::size_t k) {
+    try {
+      outcomes[k].solution.emplace(solve(questions[k]));
+    } catch (const InputError& error) {
+      outcomes[k].error = error.what();
     }
   });
-  crew.require_done();
   return outcomes;
 }
 

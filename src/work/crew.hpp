@@ -156,4 +156,12 @@ class Crew {
   std::condition_variable ended_;
 };
 
+/// `work(k)` of each k below `count`, in as many threads as the options say. Throws as `Crew::require_done`.
+template <class Options, class Work>
+void each_of(std::size_t count, const Options& options, const Work& work) {
+  Crew crew(count, 1);
+  crew.run(options.threads, options.go_on, [&](std::size_t k, std::size_t /*end*/) { work(k); });
+  crew.require_done();
+}
+
 }  // namespace rollfix

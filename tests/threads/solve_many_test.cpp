@@ -3,12 +3,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
+#include "rollfix/question.hpp"
 #include "rollfix/solve.hpp"
 
 namespace solve_many_test {
@@ -27,10 +29,10 @@ std::vector<Reading> rolls_on(const Part& part, std::size_t count) {
   return readings;
 }
 
-std::vector<Problem> problems_of(const Part& part, const std::vector<Reading>& readings) {
-  std::vector<Problem> problems;
-  for (const Reading& reading : readings) problems.push_back({part, reading});
-  return problems;
+std::vector<Question> questions_of(const Part& part, const std::vector<Reading>& readings) {
+  std::vector<Question> questions;
+  for (const Reading& reading : readings) questions.emplace_back(part, Measurements{.readings = {reading}});
+  return questions;
 }
 
 AnswerTable table_of(const Part& part, const std::vector<Reading>& readings, unsigned threads) {
@@ -43,15 +45,16 @@ AnswerTable table_of(const Part& part, const std::vector<Reading>& readings, uns
 
 TEST(SolveMany, answers_as_solve_does_one_after_the_other) {
   const Part part(gallery("spline,n=9,seed=7,wobble=0.2"));
-  const std::vector<Problem> problems = problems_of(part, rolls_on(part, 150));
-  const std::vector<Solved> many = solve(problems, {.threads = 3});
-  ASSERT_EQ(many.size(), problems.size());
+  const std::vector<Reading> readings = rolls_on(part, 150);
+  const std::vector<Outcome> many = solve(questions_of(part, readings), {.threads = 3});
+  ASSERT_EQ(many.size(), readings.size());
   for (std::size_t k = 0; k < many.size(); ++k) {
-    const Answer one = solve(problems[k]);
-    ASSERT_TRUE(many[k].answer) << many[k].error;
-    ASSERT_EQ(many[k].answer->placements.size(), one.placements.size());
+    const Answer one = solve({part, readings[k]});
+    ASSERT_TRUE(many[k].solution) << many[k].error;
+    const Answer& of_many = *many[k].solution->roll();
+    ASSERT_EQ(of_many.placements.size(), one.placements.size());
     for (std::size_t p = 0; p < one.placements.size(); ++p)
-      EXPECT_EQ(many[k].answer->placements[p].start[0], one.placements[p].start[0]);
+      EXPECT_EQ(of_many.placements[p].start[0], one.placements[p].start[0]);
   }
 }
 
@@ -94,9 +97,9 @@ TEST(SolveMany, an_error_stays_with_its_problem) {
   EXPECT_THAT(table.errors[0].second, testing::HasSubstr("nan"));
   EXPECT_EQ(table.offsets[1], table.offsets[3]);
   EXPECT_TRUE(std::isnan(table.tolerance[1]));
-  const std::vector<Solved> solved = solve(problems_of(part, readings));
-  EXPECT_FALSE(solved[2].answer);
-  EXPECT_TRUE(solved[3].answer);
+  const std::vector<Outcome> outcomes = solve(questions_of(part, readings));
+  EXPECT_FALSE(outcomes[2].solution);
+  EXPECT_TRUE(outcomes[3].solution);
 }
 
 TEST(SolveMany, stops_when_it_is_told_to) {
@@ -115,7 +118,7 @@ TEST(SolveMany, stops_when_it_is_told_to) {
 TEST(SolveMany, of_nothing_is_nothing) {
   const Part part(gallery("circle"));
   EXPECT_EQ(table_of(part, {}, 4).problems(), 0U);
-  EXPECT_TRUE(solve(std::span<const Problem>()).empty());
+  EXPECT_TRUE(solve(std::span<const Question>()).empty());
 }
 
 }  // namespace

@@ -260,6 +260,9 @@ struct Catalog::Index {
 
 namespace rollfix::catalog {
 
+/// The parts that are asked for, by their places in the catalog.
+std::vector<std::size_t> parts_of(const Catalog& catalog, const IdentifyOptions& options);
+
 /// A part that is left, and where on it the roll can have started, of each way in which it may have gone: without cells
 /// not that way. Nothing of any way: nothing is known.
 struct PartLeft {
