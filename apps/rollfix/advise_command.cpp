@@ -24,7 +24,6 @@
 #include "rollfix/program.hpp"
 #include "rollfix/question.hpp"
 #include "rollfix/solve.hpp"
-#include "text/text.hpp"
 
 namespace rollfix::app {
 
@@ -94,13 +93,9 @@ namespace {
 /// X,Y,DX,DY.
 Approach read_approach(const std::string& text, const std::string& unit) {
   const std::string what = "--approach " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() != 4) {
-    throw InputError(
-        fmt::format("{}: expected X,Y,DX,DY, as in 0,50,1,0: where the finger's centre starts, and which "
-                    "way it goes, found {}",
-                    what, counted(fields.size(), "number", "numbers")));
-  }
+  const std::vector<std::string_view> fields = fields_of(
+      text, what, 4, 4,
+      "expected X,Y,DX,DY, as in 0,50,1,0: where the finger's centre starts, and which way it goes, found {}");
   const Vec2 along(read_number(fields[2], what), read_number(fields[3], what));
   if (!(along.norm() > 0)) throw InputError(what + ": expected a direction DX,DY that is not 0,0");
   return {{read_length(fields[0], what, unit), read_length(fields[1], what, unit)}, std::atan2(along.y(), along.x())};

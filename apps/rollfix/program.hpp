@@ -34,6 +34,10 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
 /// A flag without a value.
 CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value, const std::string& meaning);
 
+/// An option that is typed once for each finger.
+void add_repeated_option(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
+                         const std::string& meaning);
+
 /// Throws InputError for whatever the parser left over: an unknown option or command, with the nearest valid one,
 /// or a word too many.
 void refuse_leftovers(const CLI::App& program);

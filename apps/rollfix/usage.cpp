@@ -90,6 +90,11 @@ CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value,
   return command.add_flag(name, value, meaning)->disable_flag_override();
 }
 
+void add_repeated_option(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
+                         const std::string& meaning) {
+  command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
+}
+
 void refuse_leftovers(const CLI::App& program) {
   const CLI::App& command = chosen_of(program);
   const bool is_program = &command == &program;

@@ -31,6 +31,11 @@ double read_number(std::string_view text, const std::string& what);
 /// A finite length, in the part's unit: bare, or with a unit as in 8mm, where the part's (empty: not known) is known.
 double read_length(std::string_view text, const std::string& what, const std::string& part_unit);
 
+/// The fields between the commas of an argument: at least `least`, at most `most`. `expected` is the message where
+/// there are others, behind `what`; {} stands for "3 numbers" in it.
+std::vector<std::string_view> fields_of(std::string_view text, const std::string& what, std::size_t least,
+                                        std::size_t most, const char* expected);
+
 /// A whole number of at least `least`.
 std::size_t read_count(std::string_view text, const std::string& what, std::size_t least);
 

@@ -55,15 +55,13 @@ std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::st
   }
   const bool is_pose = !arguments.pose.empty();
   const std::string what = is_pose ? "--pose " + arguments.pose : "--heading " + arguments.heading;
-  const std::vector<std::string_view> fields = split(is_pose ? arguments.pose : arguments.heading, ',');
-  if (fields.size() != (is_pose ? 5U : 2U)) {
-    throw InputError(what + (is_pose
-                                 ? ": expected X,Y,HEADING,SD,SD_HEADING as in 100,40,12deg,0.5,2deg: where the part "
-                                   "lies in the world at the first contact, and the standard deviations of x and y "
-                                   "and of the heading"
-                                 : ": expected ANGLE,SD as in 12deg,2deg: how the part is turned in the world at the "
-                                   "first contact, and its standard deviation"));
-  }
+  const std::vector<std::string_view> fields =
+      is_pose ? fields_of(arguments.pose, what, 5, 5,
+                          "expected X,Y,HEADING,SD,SD_HEADING as in 100,40,12deg,0.5,2deg: where the part lies in the "
+                          "world at the first contact, and the standard deviations of x and y and of the heading")
+              : fields_of(arguments.heading, what, 2, 2,
+                          "expected ANGLE,SD as in 12deg,2deg: how the part is turned in the world at the first "
+                          "contact, and its standard deviation");
   PosePrior prior;
   const std::string_view heading = fields[is_pose ? 2 : 0];
   prior.mean.heading = written_angle(heading, what);

@@ -37,6 +37,14 @@ double read_length(std::string_view text, const std::string& what, const std::st
   return in_unit(written_length(text, what), part_unit, what);
 }
 
+std::vector<std::string_view> fields_of(std::string_view text, const std::string& what, std::size_t least,
+                                        std::size_t most, const char* expected) {
+  std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() >= least && fields.size() <= most) return fields;
+  const std::string found = counted(fields.size(), "number", "numbers");
+  throw InputError(fmt::format("{}: {}", what, fmt::format(fmt::runtime(expected), found)));
+}
+
 std::size_t read_count(std::string_view text, const std::string& what, std::size_t least) {
   const std::string_view digits = trimmed(text);
   std::size_t count = 0;

@@ -51,13 +51,10 @@ bool are_columns_of_roll(const std::string& columns) {
 /// X,Y,X,Y.
 Clear read_clear(const std::string& text, const std::string& unit) {
   const std::string what = "--clear " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() != 4) {
-    throw InputError(fmt::format(
-        "{}: expected X,Y,X,Y, as in 0,0,12.5,3.1: from where to where the finger's centre went straight and felt "
-        "nothing, or rows, where --log has rows with contact 0; found {}",
-        what, counted(fields.size(), "number", "numbers")));
-  }
+  const std::vector<std::string_view> fields = fields_of(text, what, 4, 4,
+                                                         "expected X,Y,X,Y, as in 0,0,12.5,3.1: from where to where "
+                                                         "the finger's centre went straight and felt nothing, or "
+                                                         "rows, where --log has rows with contact 0; found {}");
   std::array<double, 4> numbers{};
   for (std::size_t k = 0; k < 4; ++k) numbers[k] = read_length(fields[k], what, unit);
   return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
@@ -109,13 +106,10 @@ void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows
 
 MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
   const std::string what = "--touch " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() < 2 || fields.size() > 5) {
-    throw InputError(fmt::format(
-        "{}: expected X,Y or X,Y,NORMAL, as in 12.5,3.1,73deg: where the finger's centre was, and the direction out of "
-        "the part, found {}",
-        what, counted(fields.size(), "number", "numbers")));
-  }
+  const std::vector<std::string_view> fields = fields_of(
+      text, what, 2, 5,
+      "expected X,Y or X,Y,NORMAL, as in 12.5,3.1,73deg: where the finger's centre was, and the direction out of the "
+      "part, found {}");
   const auto is_given = [&](std::size_t k) { return k < fields.size() && !fields[k].empty(); };
   MeasuredTouch touch;
   for (std::size_t k = 0; k < 2; ++k) {  // where only the normal was measured both are empty
@@ -130,11 +124,8 @@ MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
 
 TouchTolerance read_touch_tolerance(const std::string& text, const std::string& unit) {
   const std::string what = "--tolerance " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() > 2) {
-    throw InputError(
-        fmt::format("{}: expected LENGTH or LENGTH,ANGLE, as in 0.1,2deg, found {} numbers", what, fields.size()));
-  }
+  const std::vector<std::string_view> fields =
+      fields_of(text, what, 1, 2, "expected LENGTH or LENGTH,ANGLE, as in 0.1,2deg, found {}");
   return {read_length(fields[0], what, unit), fields.size() == 2 ? written_angle(fields[1], what) : 0};
 }
 

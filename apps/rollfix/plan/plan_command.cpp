@@ -59,11 +59,6 @@ PlanProblem read_plan_problem(const PlanArguments& arguments, const Part& part);
 
 namespace {
 
-void add_repeated_option(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
-                         const std::string& meaning) {
-  command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
-}
-
 /// A wheel is a disk on a free pin.
 std::vector<Finger> read_shapes(const std::vector<std::string>& typed, std::size_t count, const std::string& unit) {
   std::vector<Finger> shapes;
@@ -119,10 +114,8 @@ PlanLimits read_limits(const std::string& text, const std::string& unit) {
 Pose read_start_pose(const std::string& text, const std::string& unit) {
   if (text.empty()) return {};
   const std::string what = "--pose " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() != 3) {
-    throw InputError(what + ": expected X,Y,HEADING as in 100,40,12deg: where the part lies in the world at the start");
-  }
+  const std::vector<std::string_view> fields = fields_of(
+      text, what, 3, 3, "expected X,Y,HEADING as in 100,40,12deg: where the part lies in the world at the start");
   return {read_length(fields[0], what, unit), read_length(fields[1], what, unit), written_angle(fields[2], what)};
 }
 

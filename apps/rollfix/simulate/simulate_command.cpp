@@ -123,12 +123,6 @@ bool is_of_two(const SimulateArguments& arguments) {
   return most > 1 || !arguments.part_rotation.empty();
 }
 
-/// An option that is typed once for each finger.
-void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
-                  const std::string& meaning) {
-  command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
-}
-
 void add_rig_arguments(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--pin", arguments.pin,
@@ -159,21 +153,22 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
   command->footer(kSimulateExamples);
   add_part_argument(*command, arguments->part);
   add_finger_argument(*command, arguments->fingers);
-  add_repeated(*command, "--start", arguments->starts, "S",
-               "where the first contact is: arc length along the stored outline; twice for two fingers");
-  add_repeated(*command, "--length", arguments->lengths, "L",
-               "how far to roll, negative for backwards; twice for two fingers, of which one may stay (0)");
+  add_repeated_option(*command, "--start", arguments->starts, "S",
+                      "where the first contact is: arc length along the stored outline; twice for two fingers");
+  add_repeated_option(*command, "--length", arguments->lengths, "L",
+                      "how far to roll, negative for backwards; twice for two fingers, of which one may stay (0)");
   command->add_option("--rotation", arguments->rotation, "or how far to turn the finger, negative for backwards")
       ->type_name("ANGLE");
   command
       ->add_option("--part-rotation", arguments->part_rotation,
                    "how far the part turns meanwhile; two fingers only; default 0")
       ->type_name("ANGLE");
-  add_repeated(*command, "--contact-angle", arguments->contact_angles, "ANGLE",
-               "where on the finger the first contact is; default 0; once for both fingers or for each");
-  add_repeated(*command, "--contact", arguments->contacts, "U",
-               "where on a jaw or an outline the first contact is, arc length; default 0, for an open outline its "
-               "middle; once for both fingers or for each");
+  add_repeated_option(*command, "--contact-angle", arguments->contact_angles, "ANGLE",
+                      "where on the finger the first contact is; default 0; once for both fingers or for each");
+  add_repeated_option(
+      *command, "--contact", arguments->contacts, "U",
+      "where on a jaw or an outline the first contact is, arc length; default 0, for an open outline its "
+      "middle; once for both fingers or for each");
   add_rig_arguments(*command, *arguments);
   add_noise_argument(*command, arguments->noise);
   command->add_option("--seed", arguments->seed, "seed of the random errors of --noise; default 0")->type_name("N");
@@ -182,8 +177,8 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
   command->add_option("--seconds", arguments->seconds, "how long a wheel takes; default 1 for each row")
       ->type_name("T");
   command->add_option("--samples", arguments->samples, "rows of the log, at equal times; default 101")->type_name("N");
-  add_repeated(*command, "-o", arguments->files, "FILE",
-               "the log, - for stdout, which is the default; twice: a log for each of two fingers");
+  add_repeated_option(*command, "-o", arguments->files, "FILE",
+                      "the log, - for stdout, which is the default; twice: a log for each of two fingers");
   add_switch(*command, "--mirror", arguments->mirror,
              "the part lies face down; --start and --length are still along the outline as it was drawn");
   add_switch(*command, "--force", arguments->force, "replace files that exist");
