@@ -4,11 +4,11 @@ include(CMakePackageConfigHelpers)
 set(cmake_destination ${CMAKE_INSTALL_LIBDIR}/cmake/rollfix)
 set(pkgconfig_destination ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-# rollfix_install_library(TARGET EXPORT_FILE PKG_CONFIG_FILE)
-function(rollfix_install_library target export_file pkg_config_file)
+# rollfix_install_library(TARGET EXPORT_FILE PKG_CONFIG_FILE TEMPLATE)
+function(rollfix_install_library target export_file pkg_config_file template)
   install(TARGETS ${target} EXPORT ${export_file} FILE_SET HEADERS)
   install(EXPORT ${export_file} NAMESPACE rollfix:: DESTINATION ${cmake_destination})
-  configure_file(cmake/${pkg_config_file}.in ${PROJECT_BINARY_DIR}/${pkg_config_file} @ONLY)
+  configure_file(cmake/${template} ${PROJECT_BINARY_DIR}/${pkg_config_file} @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${pkg_config_file} DESTINATION ${pkgconfig_destination})
 endfunction()
 
@@ -19,12 +19,25 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
 # Where dlopen is, as pkg-config has it; nowhere of its own on some systems.
 list(TRANSFORM CMAKE_DL_LIBS PREPEND -l OUTPUT_VARIABLE dlopen_flags)
 
-rollfix_install_library(rollfix rollfixTargets rollfix.pc)
-foreach(component IN ITEMS march files catalog draw c)  # rollfixConfig.cmake finds them by these names
+# rollfix_install_component(COMPONENT DESCRIPTION REQUIRES LIBS): a library on top of the core, what pkg-config says of it.
+# rollfixConfig.cmake finds components by these names.
+function(rollfix_install_component component description requires libs)
   if(TARGET rollfix_${component})
-    rollfix_install_library(rollfix_${component} rollfix_${component}Targets rollfix-${component}.pc)
+    rollfix_install_library(
+      rollfix_${component} rollfix_${component}Targets rollfix-${component}.pc rollfix-component.pc.in)
   endif()
-endforeach()
+endfunction()
+
+rollfix_install_library(rollfix rollfixTargets rollfix.pc rollfix.pc.in)
+rollfix_install_component(march "The published marching algorithms, the reference for rollfix"
+  "rollfix = ${PROJECT_VERSION}" "-lrollfix_march")
+rollfix_install_component(files "Drawings and saved parts for rollfix" "rollfix = ${PROJECT_VERSION} pugixml" "-lrollfix_files")
+rollfix_install_component(catalog "Catalogs of parts for rollfix"
+  "rollfix-files = ${PROJECT_VERSION} sqlite3" "-lrollfix_catalog")
+rollfix_install_component(draw "Figures for rollfix" "rollfix = ${PROJECT_VERSION}" "-lrollfix_draw ${dlopen_flags}")
+if(TARGET rollfix_c)
+  rollfix_install_library(rollfix_c rollfix_cTargets rollfix-c.pc rollfix-c.pc.in)  # needs none of them: its headers are of C
+endif()
 if(TARGET rollfix_cli)
   install(TARGETS rollfix_cli RUNTIME)
   if(NOT CMAKE_CROSSCOMPILING)
