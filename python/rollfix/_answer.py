@@ -11,11 +11,10 @@ import numpy as np
 from . import _core
 from ._checks import flag, friction as friction_given, least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
-from ._documents import Advice
+from ._documents import Advice, proof
 from ._fingers import Finger, finger_from
 from ._made import Made
 from ._messages import in_a_page
-from ._proved import proof
 from ._rows import names_of, row_of
 from ._shape import Shape
 from ._words import diagnosis_in_python, in_python

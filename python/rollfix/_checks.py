@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 import os
 from typing import Any, List, Mapping, Optional, Tuple
@@ -90,16 +89,7 @@ def text(value: Any, name: str) -> str:
 
 def unit_of_length(value: Any, name: str = "unit") -> str:
     """Its usual name, such as 'in' of 'inches'; '' stays."""
-    return _known_unit(text(value, name), name)
-
-
-@functools.lru_cache(maxsize=64)
-def _known_unit(unit: str, name: str) -> str:
-    try:  # whichever C++ knows it knows for a part
-        return _core.load_part("gallery:circle", {"unit": unit}).unit
-    except InputError as error:
-        expected = str(error).partition(": expected ")[2]
-        raise InputError(f"{name}: expected {expected}, found {unit!r}") from None
+    return _core.unit_of_length(text(value, name), name)
 
 
 def radians_up_to(value: Any, name: str, most: float) -> float:

@@ -7,8 +7,7 @@ from typing import Any, Dict, List
 import numpy as np
 
 from ._checks import travel as travel_given
-from ._documents import Document
-from ._proved import Proved
+from ._documents import Document, Proved
 
 
 class PinAdvice(Document):

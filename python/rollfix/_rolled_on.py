@@ -10,8 +10,7 @@ from ._logs import Roll
 from ._noise import Noise, NoiseLike
 from ._options import LiveOptions, keywords
 from ._plans import Plan, planned
-from ._rig import simulated_rig
-from ._simulate import simulated, tell_of_dropped
+from ._simulate import simulated, simulated_rig, tell_of_dropped
 from ._watch import Watch
 
 if TYPE_CHECKING:

@@ -8,10 +8,9 @@ import numpy as np
 
 from ._checks import array, numbers
 from ._core import InputError
-from ._documents import Document
+from ._documents import Document, Proved
 from ._messages import shown
 from ._noise import angle_from
-from ._proved import Proved
 from ._tables import is_frame
 
 COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")

@@ -1,15 +1,19 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <optional>
+#include <string>
 
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/documents.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/part.hpp"
+#include "rollfix/units.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {
@@ -143,6 +147,16 @@ PartHandle part_from_state(const py::tuple& state) {
   return PartHandle(std::move(loaded));
 }
 
+/// The usual name of a unit of length, such as "in" of "inches"; "" stays. Throws InputError, which begins with the
+/// argument's name.
+std::string unit_of_length(const std::string& given, const std::string& argument) {
+  if (given.empty()) return given;
+  const std::optional<Unit> unit = unit_named(given);
+  if (unit && unit->dimension == Dimension::length) return std::string(unit->name);
+  throw InputError(fmt::format("{}: expected a unit of length: {}, found {}", argument, unit_names(Dimension::length),
+                               py::repr(py::str(given)).cast<std::string>()));
+}
+
 py::list shapes() {
   py::list result;
   for (const GalleryShape& shape : gallery_shapes()) {
@@ -209,6 +223,7 @@ void bind_part(py::module_& module) {
   module.def("load_part", &load);
   module.def("part_from_points", &from_points);
   module.def("part_from_pieces", &from_pieces);
+  module.def("unit_of_length", &unit_of_length);
   module.def("gallery_shapes", &shapes);
 }
 
