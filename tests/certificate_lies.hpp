@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstddef>
 #include <exception>
-#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "certificates.hpp"
@@ -15,6 +14,7 @@
 #include "random_outlines.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
+#include "told_lies.hpp"
 
 // Every kind of lie about random questions.
 namespace certificate_lies {
@@ -29,6 +29,14 @@ inline bool is_proved(const Json& certificate) {
   }
 }
 
+/// Of question number k.
+inline auto expect_unproved(int k, const random_outlines::Question& drawn) {
+  return [k, &drawn](const Json& lie, const std::string& name) {
+    EXPECT_FALSE(is_proved(lie)) << k << ": " << name << ", "
+                                 << certificates::described(drawn.part, drawn.readings, drawn.tolerance);
+  };
+}
+
 /// How often each kind was told; none of them may be proved.
 inline std::vector<int> tell(int questions, std::mt19937_64& generator) {
   std::vector<int> told(liar::Liar::all().size(), 0);
@@ -40,15 +48,7 @@ inline std::vector<int> tell(int questions, std::mt19937_64& generator) {
     } catch (const rollfix::InputError&) {  // a roll as long as an open outline
       continue;
     }
-    liar::Liar liar(drawn, truth, generator);
-    for (std::size_t i = 0; i < told.size(); ++i) {
-      const liar::Liar::Lie& lie = liar::Liar::all()[i];
-      const std::optional<Json> document = liar.told(lie);
-      if (!document) continue;
-      ++told[i];
-      EXPECT_FALSE(is_proved(*document)) << k << ": " << lie.name << ", "
-                                         << certificates::described(drawn.part, drawn.readings, drawn.tolerance);
-    }
+    told_lies::tell_each(liar::Liar::all(), truth, generator, told, expect_unproved(k, drawn), drawn);
   }
   return told;
 }
@@ -66,15 +66,7 @@ inline std::vector<int> tell_of_two(int questions, std::mt19937_64& generator) {
     } catch (const rollfix::InputError&) {  // a roll as long as an open outline
       continue;
     }
-    for (std::size_t i = 0; i < told.size(); ++i) {
-      const pair_liar::Lie& lie = pair_liar::all()[i];
-      Json json = truth;
-      pair_liar::Document document{drawn.part, json, generator};
-      if (!lie.tell(document)) continue;
-      ++told[i];
-      EXPECT_FALSE(is_proved(json)) << k << ": " << lie.name << ", "
-                                    << certificates::described(drawn.part, drawn.readings, drawn.tolerance);
-    }
+    told_lies::tell_each(pair_liar::all(), truth, generator, told, expect_unproved(k, drawn), drawn.part);
   }
   return told;
 }

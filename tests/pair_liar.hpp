@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,23 +16,22 @@
 #include "random_outlines.hpp"
 #include "rollfix/part.hpp"
 #include "shapes.hpp"
+#include "told_lies.hpp"
 
 // Lies about two fingers' answers, told by one who knows the format: from a certificate that is true, one that is not,
 // with all that belongs together changed together.
 namespace pair_liar {
 
-using Json = nlohmann::json;
 using random_outlines::uniform;
+using told_lies::Json;
 
-/// A certificate that becomes a lie, of a part, by chance.
-struct Document {
+/// Of this part.
+struct Document : told_lies::Document {
   const rollfix::Part& part;
-  Json& json;
-  std::mt19937_64& generator;
 
   std::size_t count() const { return json["placements"].size(); }
-  std::size_t any() { return std::uniform_int_distribution<std::size_t>(0, count() - 1)(generator); }
-  Json& any_placement() { return json["placements"][any()]; }
+  std::size_t any_index() { return index_in(json["placements"]); }
+  Json& any_placement() { return any(json["placements"]); }
 
   /// Gives the cells of one placement to another, or other words.
   void rename(const std::string& from, const std::string& to) {
@@ -91,10 +88,7 @@ struct Document {
   }
 };
 
-struct Lie {
-  std::string name;
-  std::function<bool(Document&)> tell;  // false: there is nothing to lie about
-};
+using Lie = told_lies::Lie<Document>;
 
 namespace making {
 
@@ -121,9 +115,9 @@ inline std::function<bool(Document&)> asked(double turn, double a, double b) {
   return [=](Document& lie) {
     if (lie.count() == 0) return false;  // of nothing that fits another question may be as true
     Json& reading = lie.json["readings"].back();
-    reading["turn"] = reading["turn"].get<double>() + turn;
-    reading["length"][0] = reading["length"][0].get<double>() + a * lie.part.perimeter();
-    reading["length"][1] = reading["length"][1].get<double>() + b * lie.part.perimeter();
+    Document::add(reading["turn"], turn);
+    Document::add(reading["length"][0], a * lie.part.perimeter());
+    Document::add(reading["length"][1], b * lie.part.perimeter());
     return true;
   };
 }
@@ -131,7 +125,7 @@ inline std::function<bool(Document&)> asked(double turn, double a, double b) {
 /// To a neighbour that is another placement.
 inline bool left_to_another(Document& lie) {
   if (lie.count() < 2) return false;
-  const std::size_t k = lie.any();
+  const std::size_t k = lie.any_index();
   lie.remove(k, Document::cell_of(k == 0 ? 0 : k - 1));
   return true;
 }
@@ -176,7 +170,7 @@ inline const std::vector<Lie>& all() {
       {"one left out, its cells excluded",
        [](Document& lie) {
          if (lie.count() == 0) return false;
-         lie.remove(lie.any(), "Y");
+         lie.remove(lie.any_index(), "Y");
          return true;
        }},
       {"one left out, its cells another's", left_to_another},
@@ -237,7 +231,7 @@ inline const std::vector<Lie>& all() {
        }},
       {"another perimeter",
        [](Document& lie) {
-         lie.json["perimeter"] = 1.001 * lie.json["perimeter"].get<double>();
+         Document::scale(lie.json["perimeter"], 1.001);
          return true;
        }},
       {"a facing of too many digits",

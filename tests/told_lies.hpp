@@ -56,14 +56,15 @@ std::vector<Lie<Told>> about_the_outline() {
   };
 }
 
-/// Tells each of these lies about one certificate, and counts it; `expect_unproved(lie, name)`.
-template <class Told, class Expect>
+/// Tells each of these lies about one certificate, and counts it; `expect_unproved(lie, name)`. `known`: what the one
+/// who tells them has to know besides.
+template <class Told, class Expect, class... Known>
 void tell_each(const std::vector<Lie<Told>>& lies, const Json& truth, std::mt19937_64& generator,
-               std::vector<int>& told, const Expect& expect_unproved) {
+               std::vector<int>& told, const Expect& expect_unproved, const Known&... known) {
   told.resize(lies.size());
   for (std::size_t k = 0; k < lies.size(); ++k) {
     Json json = truth;
-    Told document{{json, generator}};
+    Told document{{json, generator}, known...};
     if (!lies[k].tell(document)) continue;
     ++told[k];
     expect_unproved(json, lies[k].name);
