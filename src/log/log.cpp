@@ -14,6 +14,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/units.hpp"
+#include "text/table.hpp"
 #include "text/text.hpp"
 
 // From text to logs: lines to rows (RowReader), rows to rolls (LogMaker), and what is done with whole logs.
@@ -234,7 +235,7 @@ constexpr int kRowsAhead = 1000;
 
 /// Whether a row can be read further on: else leaving rows out leaves nothing.
 /// Reads on, which is no loss: an error follows either way.
-bool any_row_can_be_read(RowReader& reader, LogLines& lines) {
+bool any_row_can_be_read(RowReader& reader, TextLines& lines) {
   LogRow row;
   std::string_view line;
   for (int k = 0; k < kRowsAhead && lines.next(line); ++k) {
@@ -249,7 +250,7 @@ bool any_row_can_be_read(RowReader& reader, LogLines& lines) {
 /// Reads rows one after the other, and leaves out what can't be read where that was asked for.
 class RowsInLines {
  public:
-  RowsInLines(LogLines& lines, const LogOptions& options, bool of_pin)
+  RowsInLines(TextLines& lines, const LogOptions& options, bool of_pin)
       : lines_(lines), skips_(options.skip_bad), reader_(lines.name(), options, of_pin) {}
 
   const RowReader& reader() const { return reader_; }
@@ -296,7 +297,7 @@ class RowsInLines {
     }
   }
 
-  LogLines& lines_;
+  TextLines& lines_;
   bool skips_;  // rows that can't be read are left out
   RowReader reader_;
   bool any_ = false;                  // a row was read
@@ -304,7 +305,7 @@ class RowsInLines {
 };
 
 /// All rolls of a log, read to its end. A note of the header goes with each of them.
-std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
+std::vector<Log> rolls_in(TextLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
   RowsInLines rows(lines, options, of_pin);
   LogMaker maker(rows.reader(), splitting, options.single_rows, of_pin);
   RowKind kind = RowKind::none;
@@ -321,7 +322,7 @@ std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions
 /// The rolls in a text; `name` is for messages.
 std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting,
                                const LogOptions& options) {
-  LogLines lines(text, name);
+  TextLines lines(text, name);
   return rolls_in(lines, splitting, options);
 }
 
@@ -329,21 +330,21 @@ std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, S
 std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, const LogOptions& options) {
   const OpenFile file = open_text(path);
   const bool is_input = path == "-";
-  LogLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
+  TextLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
   return rolls_in(lines, splitting, options);
 }
 
 }  // namespace
 
 PinLog parse_pin_log(std::string_view text, const std::string& name, const LogOptions& options) {
-  LogLines lines(text, name);
+  TextLines lines(text, name);
   return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
 }
 
 PinLog read_pin_log(const std::string& path, const LogOptions& options) {
   const OpenFile file = open_text(path);
   const bool is_input = path == "-";
-  LogLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
+  TextLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
   return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
 }
 

@@ -10,6 +10,7 @@
 #include "log/header/log_header.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
+#include "text/text.hpp"
 
 // Notation:
 //   written         a number and half a unit of its last digit, in radians, seconds or the part's unit: WrittenValue

@@ -12,6 +12,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"
+#include "text/table.hpp"
 #include "text/text.hpp"
 
 // A table of points, read line by line.
@@ -88,39 +89,13 @@ LineKind read_line(std::string_view line, Vec2& point) {
   throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
 }
 
-/// Throws InputError: a file that is no plain text, by its first bytes. Each kind has its own cure.
-void refuse_binary(std::string_view text, const std::string& name) {
-  const std::string_view head = text.substr(0, 1024);
-  if (is_gzip(text)) throw InputError(fmt::format("{}: is compressed, expected plain text: gunzip -k {}", name, name));
-  if (has_only_returns(text)) throw InputError(about_only_returns(name));
-  if (has_utf16_mark(text))
-    throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
-  if (head.find('\0') != std::string_view::npos) {
-    throw InputError(fmt::format("{}: is not a text file, expected one point 'x y' per line", name));
-  }
-}
-
 // ---- headers
-
-/// What separates the cells of a row: a mark, or blanks.
-char separator_in(std::string_view row) {
-  for (const char mark : {',', ';', '\t'}) {
-    if (row.find(mark) != std::string_view::npos) return mark;
-  }
-  return ' ';
-}
-
-/// The inside of "..." as spreadsheets write it; another cell as it is.
-std::string_view without_quotes(std::string_view cell) {
-  const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-  return is_quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
-}
 
 /// The cells of a row, trimmed and without quotes. Between blanks none is empty; between marks some may be.
 std::vector<std::string_view> cells_of(std::string_view row, char separator) {
   std::vector<std::string_view> cells;
   for (const std::string_view cell : split(trimmed(row), separator)) {
-    if (separator != ' ' || !cell.empty()) cells.push_back(without_quotes(cell));
+    if (separator != ' ' || !cell.empty()) cells.push_back(unquoted(cell));
   }
   return cells;
 }
@@ -233,7 +208,7 @@ class TableReader {
   void look_for_more_columns() {
     // Asked at the first point only. Empty cells at the end of the line don't count.
     if (!result_.points.empty()) return;
-    const char separator = separator_in(data_);
+    const char separator = separator_of(data_);
     std::vector<std::string_view> cells = cells_of(data_, separator);
     while (!cells.empty() && trimmed(cells.back()).empty()) cells.pop_back();
     if (cells.size() < 3) return;
@@ -284,7 +259,7 @@ class TableReader {
     ++titles_;
     result_.has_title = true;
     Header header;
-    header.separator = separator_in(data_);
+    header.separator = separator_of(data_);
     for (const std::string_view cell : cells_of(data_, header.separator)) header.titles.push_back(title_of(cell));
     const std::optional<std::size_t> x = header.find("x");
     const std::optional<std::size_t> y = header.find("y");
@@ -342,7 +317,7 @@ class TableReader {
   Vec2 point_in_table() const {
     // A line may be separated otherwise than its header, by blanks say.
     const bool is_alike = data_.find(header_->separator) != std::string_view::npos;
-    const std::vector<std::string_view> cells = cells_of(data_, is_alike ? header_->separator : separator_in(data_));
+    const std::vector<std::string_view> cells = cells_of(data_, is_alike ? header_->separator : separator_of(data_));
     const auto number = [&](std::size_t k) {
       const std::optional<double> value = k < cells.size() ? parse_number(cells[k]) : std::nullopt;
       if (value) return *value;
@@ -384,10 +359,8 @@ class TableReader {
 
 }  // namespace
 
-/// A byte order mark is passed over.
 NumberedPoints read_point_table(std::string_view text, const std::string& name, std::optional<bool> decimal_comma) {
-  refuse_binary(text, name);
-  return TableReader(without_mark(text), name, decimal_comma).run();
+  return TableReader(plain_beginning(text, name, "one point 'x y' per line"), name, decimal_comma).run();
 }
 
 }  // namespace rollfix

@@ -16,6 +16,7 @@
 #include "rollfix/touch.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"
+#include "text/table.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::touch {
@@ -325,7 +326,7 @@ TouchTable parse_grbl(std::string_view text, const std::string& name, const Touc
   const Conversion own = knows_unit ? length_conversion("mm", options.unit, name) : Conversion{};
   TouchTable table;
   std::size_t missed = 0;
-  LogLines lines(text, name);
+  TextLines lines(text, name);
   std::string_view line;
   for (std::size_t number = 1; lines.next(line); ++number) {
     if (grbl_start(line) == std::string_view::npos) continue;
@@ -351,7 +352,7 @@ TouchTable parse_grbl(std::string_view text, const std::string& name, const Touc
 /// All rows have nine numbers; x and y are in the machine's unit, which is taken as the part's.
 TouchTable parse_linux_cnc(std::string_view text, const std::string& name) {
   TouchTable table;
-  LogLines lines(text, name);
+  TextLines lines(text, name);
   TableCutter cutter(false);
   std::string_view line;
   TableRow row;
@@ -374,7 +375,7 @@ TouchTable parse_linux_cnc(std::string_view text, const std::string& name) {
 /// GRBL by a report anywhere, LinuxCNC by the first row that is no comment.
 std::optional<ProbeReport> probe_report(std::string_view text) {
   if (grbl_start(text) != std::string_view::npos) return ProbeReport::grbl;
-  LogLines lines(text, "");
+  TextLines lines(text, "");
   std::string_view line;
   while (lines.next(line)) {
     const std::string_view data = trimmed(line.substr(0, line.find('#')));
@@ -406,7 +407,7 @@ namespace {
 /// Calls `row` with each row of the table.
 template <class Row>
 void each_row(std::string_view text, const std::string& name, std::optional<bool> decimal_comma, const Row& row) {
-  LogLines lines(text, name);
+  TextLines lines(text, name);
   TableCutter cutter(decimal_comma);
   std::string_view line;
   TableRow cut;

@@ -14,6 +14,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/log.hpp"
+#include "text/table.hpp"
 #include "text/text.hpp"
 #include "watch/meaning.hpp"
 
