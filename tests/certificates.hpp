@@ -16,7 +16,7 @@
 #include "random.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/curve.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/outline.hpp"
 #include "rollfix/part.hpp"
 #include "shapes.hpp"

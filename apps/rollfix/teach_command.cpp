@@ -6,9 +6,9 @@
 
 #include "documents/documents.hpp"
 #include "rollfix/arguments/arguments.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/log.hpp"
 #include "rollfix/program.hpp"
 #include "rollfix/rolling.hpp"

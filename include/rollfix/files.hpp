@@ -1,17 +1,22 @@
 #pragma once
 
-// Parts from files: DXF, SVG, points, saved parts. Lengths are in the drawing's unit, or in the one that is asked for.
+// Parts from files, and answers as the JSON documents that the program prints with --json (docs/json.md lists their
+// fields). Lengths of a drawing are in its unit, or in the one that is asked for.
 //
 //     const LoadedPart loaded = load_part("examples/bracket.dxf", {.loop = 1});
 //     loaded.unit;                                  // "mm"
 //     loaded.loops.size();                          // 2
 //     std::round(10 * loaded.part.perimeter()) / 10;  // 252.5
 //
+//     const Answer answer = solve({load_part("gallery:ellipse,a=2,b=1"), Reading(1.0, 0.5)});
+//     const std::string text = format_answer(answer, Layout::line);
+//     text.find("rollfix/locate/1") != std::string::npos;  // true
+//
 // Degenerate cases: open chains, gaps, loops within loops, curves that cross: each is joined, chosen or refused, and
 // `notes` or the error says which and where (docs/files.md).
 //
 // Accuracy: curves are kept as drawn, arcs as arcs and splines as splines; a saved part answers with the same bits as
-// the one that was saved.
+// the one that was saved. Documents have as many digits as bring each bit back; what is not known is null.
 
 #include <cstddef>
 #include <optional>
@@ -77,5 +82,77 @@ std::string saved_name(std::string_view text);
 
 /// Writes format_part to a file. Throws InputError also when it can't be written.
 void save_part(const Part& part, const std::string& path);
+
+// What is answered, as text. The types are in the headers of the questions: rollfix/solve.hpp, rollfix/touch.hpp, ...
+
+struct Answer;
+struct Certificate;
+struct HoldAnswer;
+struct HoldCertificate;
+struct HoldDiagnosis;
+struct Inspection;
+struct NextPin;
+struct NextRoll;
+struct NextTouch;
+struct PairCertificate;
+struct Plan;
+struct PlanProblem;
+class Solution;
+struct Taught;
+struct TouchAnswer;
+struct TouchCertificate;
+
+/// How a document is laid out: a field on each line, or all of it on one.
+enum class Layout { lines, line };
+
+/// "rollfix/locate/1". `explain`: with what the fingers can't do.
+std::string format_answer(const Answer& answer, Layout layout = Layout::lines, bool explain = false);
+
+/// "rollfix/certificate/1".
+std::string format_certificate(const Certificate& certificate);
+
+/// "rollfix/pair-certificate/1".
+std::string format_certificate(const PairCertificate& certificate);
+
+/// "rollfix/touch-certificate/1".
+std::string format_certificate(const TouchCertificate& certificate);
+
+/// "rollfix/hold-certificate/1".
+std::string format_certificate(const HoldCertificate& certificate);
+
+/// "rollfix/inspect/1" of the part of `loaded`, with the loops of its drawing.
+std::string format_inspection(const Inspection& inspection, const LoadedPart& loaded, Layout layout = Layout::lines);
+
+/// "rollfix/advise/1".
+std::string format_next_roll(const NextRoll& next, Layout layout = Layout::lines);
+
+/// "rollfix/teach/1": the inspection of the part that was taught, and how it was.
+std::string format_taught(const Inspection& inspection, const Taught& taught, Layout layout = Layout::lines);
+
+/// "rollfix/locate/1" of touches.
+std::string format_touches(const TouchAnswer& answer, Layout layout = Layout::lines);
+
+/// "rollfix/advise/1" of touches.
+std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, Layout layout = Layout::lines);
+
+/// "rollfix/locate/1" of three and more fingers.
+std::string format_hold(const HoldAnswer& answer, Layout layout = Layout::lines);
+
+/// "rollfix/advise/1" of how a wheel's pin moves next.
+std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout layout = Layout::lines);
+
+/// What to know about how a roll was understood, a sentence each: rows on corners of a finger, a way round that can't
+/// be, lengths that changed their signs.
+std::vector<std::string> notes_of(const Answer& answer);
+
+/// What is wrong, and what to give instead, in plain English.
+std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);
+std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);
+
+/// "rollfix/locate/1" of whichever kind. `explain`: of one roll, with what the fingers can't do.
+std::string format_solution(const Solution& solution, Layout layout = Layout::lines, bool explain = false);
+
+/// "rollfix/plan/1".
+std::string format_plan_document(const Plan& plan, const PlanProblem& problem, Layout layout = Layout::lines);
 
 }  // namespace rollfix

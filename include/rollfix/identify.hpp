@@ -25,7 +25,6 @@
 #include <vector>
 
 #include "rollfix/advise.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/part.hpp"
 #include "rollfix/solve.hpp"

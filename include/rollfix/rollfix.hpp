@@ -1,8 +1,8 @@
 #pragma once
 
-// All that a user of the core needs, from the part to the answer. Apart are rollfix/files.hpp, parts from drawings,
-// with rollfix/documents.hpp, answers as JSON; rollfix/identify.hpp, which of many parts; rollfix/draw.hpp, the
-// figures; rollfix/march.hpp, the published algorithms; and rollfix/rollfix.h for other languages.
+// All that a user of the core needs, from the part to the answer. Apart are rollfix/files.hpp, parts from drawings and
+// answers as JSON; rollfix/identify.hpp, which of many parts; rollfix/draw.hpp, the figures; rollfix/march.hpp, the
+// published algorithms; and rollfix/rollfix.h for other languages.
 
 // clang-format off
 #include "rollfix/error.hpp"             // IWYU pragma: export  what is thrown

@@ -6,7 +6,8 @@
 
 #include "documents/documents.hpp"
 #include "documents/json_output.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/question.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -1,7 +1,8 @@
 #include <array>
 
 #include "documents/documents.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/certify.hpp"
+#include "rollfix/files.hpp"
 
 namespace rollfix {
 namespace {

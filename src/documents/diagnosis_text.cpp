@@ -7,7 +7,7 @@
 #include "documents/documents.hpp"
 #include "log/header/log_header.hpp"
 #include "roll/noise.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

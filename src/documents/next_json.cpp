@@ -1,7 +1,8 @@
 #include <array>
 
 #include "documents/documents.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
+#include "rollfix/plan.hpp"
 
 namespace rollfix {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "documents/documents.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/touch.hpp"
 
 namespace rollfix {

@@ -10,7 +10,6 @@
 #include "hold/rig_cases.hpp"
 #include "random_outlines.hpp"
 #include "rollfix/certify.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
 #include "verified.hpp"
 

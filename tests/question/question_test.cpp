@@ -12,7 +12,7 @@
 #include "hold/hold_cases.hpp"
 #include "hold/rig_cases.hpp"
 #include "refusal.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/solve.hpp"
 #include "touch/roll_cases.hpp"
 

@@ -11,7 +11,6 @@
 #include "paths.hpp"
 #include "random_outlines.hpp"
 #include "rollfix/certify.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
 #include "touch/touch_cases.hpp"
 #include "verified.hpp"

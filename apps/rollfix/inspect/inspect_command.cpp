@@ -7,9 +7,9 @@
 
 #include "documents/documents.hpp"
 #include "rollfix/arguments/arguments.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/program.hpp"

@@ -9,9 +9,9 @@
 
 #include "answer/steps.hpp"
 #include "rollfix/arguments/arguments.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/locate/locate_command.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/program.hpp"

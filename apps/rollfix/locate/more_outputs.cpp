@@ -9,8 +9,8 @@
 
 #include "outline/point_table.hpp"
 #include "rollfix/certify.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/part.hpp"
 #include "rollfix/units.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/inspect.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"

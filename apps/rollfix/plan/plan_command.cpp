@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "rollfix/arguments/arguments.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/plan.hpp"
 #include "rollfix/program.hpp"

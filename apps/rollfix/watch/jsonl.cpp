@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "documents/json_output.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/identify.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"

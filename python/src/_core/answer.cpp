@@ -6,7 +6,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "rollfix/certify.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

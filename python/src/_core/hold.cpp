@@ -5,7 +5,7 @@
 #include "bindings.hpp"
 #include "handles.hpp"
 #include "rollfix/certify.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -8,7 +8,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "rollfix/curve.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/outline.hpp"

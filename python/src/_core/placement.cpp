@@ -5,7 +5,7 @@
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 
 namespace rollfix::python {
 namespace {

@@ -6,7 +6,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "handles.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -3,7 +3,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/inspect.hpp"
 #include "rollfix/solve.hpp"
 #include "signals.hpp"
