@@ -12,6 +12,7 @@
 #include "rollfix/curve.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/outline.hpp"
+#include "text/units.hpp"
 
 namespace rollfix::units_test {
 namespace {

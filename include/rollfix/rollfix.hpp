@@ -6,7 +6,7 @@
 
 // clang-format off
 #include "rollfix/error.hpp"             // IWYU pragma: export  what is thrown
-#include "rollfix/units.hpp"             // IWYU pragma: export
+#include "rollfix/units.hpp"             // IWYU pragma: export  lengths as people write them
 #include "rollfix/curve.hpp"             // IWYU pragma: export  points and curves
 #include "rollfix/outline.hpp"           // IWYU pragma: export  what bounds a part
 #include "rollfix/turning_function.hpp"  // IWYU pragma: export  its tangent's angle along it

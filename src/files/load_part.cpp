@@ -15,6 +15,7 @@
 #include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 namespace rollfix {
 

@@ -13,9 +13,9 @@
 #include "log/roll_rows.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/log.hpp"
-#include "rollfix/units.hpp"
 #include "text/table.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 // From text to logs: lines to rows (RowReader), rows to rolls (LogMaker), and what is done with whole logs.
 //   roll            rows between two losses of contact, each a Log of its own

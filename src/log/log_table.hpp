@@ -6,8 +6,8 @@
 #include <string>
 
 #include "rollfix/log.hpp"
-#include "rollfix/units.hpp"
 #include "text/table.hpp"
+#include "text/units.hpp"
 
 namespace rollfix {
 

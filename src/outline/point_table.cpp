@@ -10,10 +10,10 @@
 #include "outline/box.hpp"
 #include "outline/refusals.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/units.hpp"
 #include "text/number.hpp"
 #include "text/table.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 // A table of points, read line by line.
 // Notation:

@@ -11,6 +11,7 @@
 #include "outline/point_table.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 // From a table of points to an outline.
 // Notation:

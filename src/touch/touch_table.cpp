@@ -14,10 +14,10 @@
 #include "log/log_table.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/touch.hpp"
-#include "rollfix/units.hpp"
 #include "text/number.hpp"
 #include "text/table.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 namespace rollfix::touch {
 

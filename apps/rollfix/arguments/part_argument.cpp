@@ -9,9 +9,9 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/program.hpp"
-#include "rollfix/units.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 namespace rollfix::app {
 

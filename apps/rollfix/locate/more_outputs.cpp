@@ -13,8 +13,8 @@
 #include "rollfix/files.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/part.hpp"
-#include "rollfix/units.hpp"
 #include "text/text.hpp"
+#include "text/units.hpp"
 
 namespace rollfix::app {
 namespace {
