@@ -18,7 +18,7 @@
 
 #include "roll/motion.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 /// The witness of rolls: eqs. (1) and (2), with kappa by arc length, integrated by Runge-Kutta 5(4) with step control,
 /// started afresh wherever kappa jumps.

@@ -13,10 +13,10 @@
 #include "outline/turn.hpp"
 #include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/turning_function.hpp"
 #include "touch/nearest.hpp"
 #include "touch/steps.hpp"
+#include "work/pulse.hpp"
 
 namespace rollfix::advising {
 

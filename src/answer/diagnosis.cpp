@@ -8,7 +8,7 @@
 #include "explanations.hpp"
 #include "roll/noise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   odds            log of how much likelier the rows are with a mistake than without: `Diagnosis::log_odds`

@@ -8,8 +8,8 @@
 #include "finger/convex_body.hpp"
 #include "locate/searches.hpp"
 #include "rollfix/finger.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
+#include "work/pulse.hpp"
 
 // What fingers can't do: reach a place, or overlap each other.
 // Notation, all of it as the part sees it:

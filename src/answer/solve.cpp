@@ -13,9 +13,9 @@
 
 #include "rollfix/error.hpp"
 #include "rollfix/locate.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/rolling.hpp"
 #include "steps.hpp"
+#include "work/pulse.hpp"
 
 // From a problem to its answer: the order of the steps, and what each of them is given.
 // Notation:

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "log/jitter.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   mode            a place of the posterior, with its probability; `rest`: what all modes leave out

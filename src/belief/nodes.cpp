@@ -10,8 +10,8 @@
 
 #include "belief/posterior.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/turning_function.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/belief.md, "Centres as evidence" and "How many rows are joined":
 //   p(s)            the boundary, by Hermite's cubic on each cell of s: BoundaryPath::at

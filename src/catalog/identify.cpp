@@ -17,11 +17,11 @@
 #include "belief/posterior.hpp"
 #include "catalog/bounds/bounds.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/solve.hpp"
 #include "text/text.hpp"
 #include "weights.hpp"
 #include "work/crew.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/identify.md:
 //   weight          what a part is worth: peak and volume of its evidence, `widened` and `excess` of its noise:

@@ -9,13 +9,13 @@
 #include "belief/posterior.hpp"
 #include "bounds/bounds.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 #include "touch/measured.hpp"
 #include "touch/problem.hpp"
 #include "touch/roll_contacts.hpp"
 #include "weights.hpp"
 #include "work/crew.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/identify.md, "Touches":
 //   left            parts that no touch and no roll by itself rules out: `bounds/`

@@ -12,7 +12,7 @@
 #include "places.hpp"
 #include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/rig.md:
 //   X, phi          the part at an instant; C: a pin in the world, x: on the part

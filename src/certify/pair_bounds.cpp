@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/certificates.md, "Two fingers":
 //   Theta_c(s)      angle of a finger's contact c, at s + L_c, c = 0 the first one: ContactStretch

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "part/cursor.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   f_k(s)          Theta(s + L_k) - Theta(s) - theta_k of reading k: `f_[k]`

@@ -13,9 +13,9 @@
 #include "outline/refusals.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
-#include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 #include "text/units.hpp"
+#include "work/pulse.hpp"
 
 namespace rollfix {
 

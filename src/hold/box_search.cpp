@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
 //   [lo, hi]        an arc of first contacts s_i: `arc`

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "rollfix/pulse.hpp"
 #include "steps.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   u, H            unknowns, and their information with all poses eliminated: Reduced::matrix

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
 //   z_i, e_i        first contact of finger i, and the stretch of its lengths: `unknowns`

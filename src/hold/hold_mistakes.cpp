@@ -10,7 +10,6 @@
 #include "answer/explanations.hpp"
 #include "held_rows.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 
 // Notation:
 //   trial           the problem as it would be without a mistake, and its answer; glance: by some of the rows

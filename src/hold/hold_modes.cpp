@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   u               unknowns: first contacts z_i and stretches: HeldState::unknowns

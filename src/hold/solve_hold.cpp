@@ -13,9 +13,9 @@
 #include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/hold.hpp"
-#include "rollfix/pulse.hpp"
 #include "steps.hpp"
 #include "touch/posterior.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   n               error of a contact along the boundary: s = z + L / (1 + e) - n; its row's normal tells of it

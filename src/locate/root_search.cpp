@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   s, s + L        start and end of a roll: `s`; the end's place on its spiral is `s + pair.offset`, whole laps taken

@@ -10,8 +10,8 @@
 #include "locate/pair/components.hpp"
 #include "locate/pair/roll_curve.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
 #include "searches.hpp"
+#include "work/pulse.hpp"
 
 namespace rollfix::locating {
 

@@ -8,8 +8,8 @@
 
 #include "outline/joining.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "text/text.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   step            a curve of the drawing, and which way it is passed through: Step

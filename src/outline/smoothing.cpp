@@ -14,7 +14,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   q_i, tol        points of a scan, and how near f has to be to each: `points_`, `tolerance_`

@@ -6,7 +6,7 @@
 #include "arc_height.hpp"
 #include "outline/box.hpp"
 #include "part_data.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   arc             one of equal lengths of a spiral on one panel; they turn by `kCrossingLeafTurn` at most on average

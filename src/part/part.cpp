@@ -12,8 +12,8 @@
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline.hpp"
-#include "rollfix/pulse.hpp"
 #include "text/text.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   s, base         a place by arc length, and the same on the first lap; x on its panel, u on its curve

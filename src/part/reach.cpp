@@ -13,7 +13,7 @@
 #include "part_data.hpp"
 #include "reach_search.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/reach.md:
 //   stance          contacts on a stretch of a spiral, or pivots at a corner; decided: possible or not: Decision

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cursor.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/reach.md, "The condition":
 //   p, T, n         contact, the tangent there and the outward normal: `View::point`, `tangent`, `normal`

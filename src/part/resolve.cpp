@@ -10,7 +10,7 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   u               the curve's parameter, alpha(u) the curve; on a panel u = middle + `half_` times x'

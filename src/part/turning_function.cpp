@@ -10,7 +10,7 @@
 #include "outline/turn.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   s, P            arc length, in `Panel::lo` to `hi` on a panel; perimeter: `perimeter_`

@@ -7,8 +7,8 @@
 #include "log/log_rows.hpp"
 #include "log/wrapping.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/turning_function.hpp"
+#include "work/pulse.hpp"
 
 // Notation, at a row:
 //   s               the contact on the part: start - (u - u_0), of a disk r times that: `place`

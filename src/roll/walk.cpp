@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   s, Theta        contact on the part, and the tangent's angle there: `s`, `angle`

@@ -8,10 +8,10 @@
 #include "outline/turn.hpp"
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/teach.hpp"
 #include "teach/teaching.hpp"
 #include "text/text.hpp"
+#include "work/pulse.hpp"
 
 namespace rollfix::teaching {
 namespace {

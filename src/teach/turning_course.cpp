@@ -8,7 +8,7 @@
 
 #include "rollfix/curve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   (s_k, theta_k)  rows; a run's between two corners: TurningRun; rows at one place: Stop

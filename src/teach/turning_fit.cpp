@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "rollfix/curve.hpp"
-#include "rollfix/pulse.hpp"
 #include "teach/teaching.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   (s_k, theta_k)  rows of a run: TurningRun

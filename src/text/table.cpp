@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
+#include "work/pulse.hpp"
 
 // Text to cells: a file through a buffer, lines, cells.
 //   line            up to the next '\n', without it; valid until the next one is asked for

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   q_i, delta_i    a touch's measured centre, and how far it may be off: `Measured::at`, `place_most`

@@ -7,7 +7,7 @@
 
 #include "outline/turn.hpp"
 #include "roll_belief.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   (X, phi)        the pose of the part: `Pose`, moved by steps about `about_`

@@ -8,9 +8,9 @@
 #include "problem.hpp"
 #include "roll_contacts.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/pulse.hpp"
 #include "rollfix/touch.hpp"
 #include "steps.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   contact      a roll's first one or a touch, rolls first: `contacts.each`; two of them are the `pair`

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "belief/posterior.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, the same as in roll_filter.cpp, four filters one in each number of a `Four`:
 //   w, c, m         `w_`, `tilt_`, `Lines::slope`; 1 - c m is `Lines::rest`

@@ -8,7 +8,7 @@
 #include "belief/two/pair_density.hpp"
 #include "belief/two/pair_filter.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   s               a finger's first contact; L: `length` of a node

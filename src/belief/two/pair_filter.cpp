@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation, as in docs/two_fingers.md, "The errors":
 //   s, t            first contacts, by the tilted turnings `PairStart::w` of finger a [0] and finger b [1]

@@ -11,7 +11,7 @@
 #include "locate/searches.hpp"
 #include "outline/turn.hpp"
 #include "plane_curve.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   s, t            first contacts of finger a and of finger b; in a box the coordinates x of two nodes (at a corner x

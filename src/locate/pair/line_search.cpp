@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "locate/searches.hpp"
-#include "rollfix/pulse.hpp"
+#include "work/pulse.hpp"
 
 // Notation:
 //   x, y            the free contact and the bound one: `Place::free.x`, `Place::bound.x`; `free_is_a_` says which is
