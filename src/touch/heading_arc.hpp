@@ -6,8 +6,18 @@
 
 #include "outline/turn.hpp"
 
-// Arcs of the part's heading phi, modulo a turn, and which phi turn vectors of the part into one of the world: |R(phi)
-// v - w| <= slack. Bounds may be wide, never narrow: the search drops what they leave out.
+// Arcs of the part's heading, modulo a turn, and which headings turn vectors of the part into one of the world.
+// Notation:
+//   phi             the part's heading; R(phi) turns the part's frame into the world's
+//   v, w            a vector of the part, as between two centres on it, and one of the world: `part`, `world`
+//   slack           |R(phi) v - w| is at most this
+//   v = a d + b d'  in a rectangle: d a direction and d' to the left of it, a and b in intervals: VectorBox, `ahead`,
+//                   `left`
+// Equations: |R(phi) v - w|^2 = |v|^2 + |w|^2 - 2 |v| |w| cos(phi - phi_0), where phi_0 is the angle from v to w. Of a
+// rectangle | |v| - |w| | <= slack bounds a and b, by a^2 + b^2 = |v|^2. Follows docs/touch.md, "How it works".
+// Idea: of one vector the arc is exact. A rectangle is first cut to vectors that are long enough and not too long; what
+// is left lies in a cone about its middle, and the arc is as wide as the cone and asin(slack / |w|) together. Arcs may
+// be wide, never narrow: the search drops what they leave out.
 namespace rollfix::touch {
 
 /// Headings within `half` of a middle, modulo a turn; half below 0: none, from pi on: all.

@@ -14,6 +14,16 @@
 #include "roll/noise.hpp"
 #include "rollfix/error.hpp"
 
+// What is refused, contacts alike, and the mirror. Notation:
+//   (x, y), n       a touch's centre and the outward normal in the world: `at`, `normal`; tau = n + pi/2 is the part's
+//                   tangent there: Measured::tangent
+//   unit, most      what residuals are divided by, and how far they may go: a standard deviation and kTouchSigmas of
+//                   it, of angles pi at most; without noise both are the tolerance
+//   M               the mirror (x, y) -> (-x, y): normals become pi - n, poses (X, Y, phi) become (-X, Y, -phi), their
+//                   covariances C become S C S with S = diag(-1, 1, -1)
+// Follows docs/touch.md, "What to give"; M is its own inverse.
+// Idea: a part that lies face down looks in the mirror as it is drawn. So all that was measured is mirrored, the search
+// knows of parts face up only, and its answer is mirrored back.
 namespace rollfix {
 
 namespace touch {
