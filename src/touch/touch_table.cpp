@@ -19,63 +19,6 @@
 #include "text/text.hpp"
 #include "text/units.hpp"
 
-namespace rollfix::touch {
-
-/// In the order of kTouchColumns.
-enum class TouchColumn : std::size_t { x, y, normal, position_sd, normal_sd, contact };
-inline constexpr std::size_t kTouchColumnCount = 6;
-inline constexpr std::array<const char*, kTouchColumnCount> kTouchColumns = {"x",           "y",         "normal",
-                                                                             "position_sd", "normal_sd", "contact"};
-
-inline const char* name_of(TouchColumn column) { return kTouchColumns[static_cast<std::size_t>(column)]; }
-/// Else it is a length, or `contact`, which has no unit.
-inline bool is_of_angle(TouchColumn column) {
-  return column == TouchColumn::normal || column == TouchColumn::normal_sd;
-}
-inline Dimension dimension_of(TouchColumn column) { return is_of_angle(column) ? Dimension::angle : Dimension::length; }
-
-/// What a name in a header, or in `columns`, stands for.
-struct KnownColumn {
-  TouchColumn column = TouchColumn::x;
-  std::string unit{};  // of the header: "x [mm]", "x_mm"; empty: it names none
-};
-/// None: no column of touches has this name.
-std::optional<KnownColumn> touch_column(const HeaderName& header);
-
-/// Which cell of a row holds which column, and in what.
-class TouchHeader {
- public:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-  /// Throws InputError: no x or y, a column twice, one of `columns` that is not there, a unit that is not the column's.
-  TouchHeader(const TableRow& row, const std::string& name, const TouchTableOptions& options);
-
-  /// Of cells in the header.
-  std::size_t count() const { return count_; }
-  bool has(TouchColumn column) const { return cell(column) != kNone; }
-  /// kNone: the table does not have it.
-  std::size_t cell(TouchColumn column) const { return cell_[static_cast<std::size_t>(column)]; }
-  /// To the part's unit, or to radians.
-  const Conversion& conversion(TouchColumn column) const { return conversion_[static_cast<std::size_t>(column)]; }
-  /// The names of columns that are not used.
-  const std::vector<std::string>& ignored() const { return ignored_; }
-
- private:
-  // The steps of the constructor; `set` throws, as it does.
-  void add_named(const std::vector<HeaderName>& names, const TouchTableOptions& options);
-  void add_known(const std::vector<HeaderName>& names, const std::string& part_unit);
-  void set(TouchColumn column, std::size_t cell, const std::string& unit, const std::string& part_unit);
-  std::size_t find(const std::vector<HeaderName>& names, const ColumnSource& source) const;
-
-  std::string start_;  // of messages
-  std::size_t count_ = 0;
-  std::array<std::size_t, kTouchColumnCount> cell_{};
-  std::array<Conversion, kTouchColumnCount> conversion_{};
-  std::vector<std::string> ignored_;
-};
-
-}  // namespace rollfix::touch
-
 // Notation:
 //   column           what a number of a touch is: TouchColumn
 //   name             what a header calls it: "x", "X [mm]", "x_mm"; or another one that `columns` states
@@ -86,6 +29,23 @@ class TouchHeader {
 namespace rollfix {
 namespace touch {
 namespace {
+
+/// In the order of kTouchColumns.
+enum class TouchColumn : std::size_t { x, y, normal, position_sd, normal_sd, contact };
+constexpr std::size_t kTouchColumnCount = 6;
+constexpr std::array<const char*, kTouchColumnCount> kTouchColumns = {"x",           "y",         "normal",
+                                                                      "position_sd", "normal_sd", "contact"};
+
+const char* name_of(TouchColumn column) { return kTouchColumns[static_cast<std::size_t>(column)]; }
+/// Else it is a length, or `contact`, which has no unit.
+bool is_of_angle(TouchColumn column) { return column == TouchColumn::normal || column == TouchColumn::normal_sd; }
+Dimension dimension_of(TouchColumn column) { return is_of_angle(column) ? Dimension::angle : Dimension::length; }
+
+/// What a name in a header, or in `columns`, stands for.
+struct KnownColumn {
+  TouchColumn column = TouchColumn::x;
+  std::string unit{};  // of the header: "x [mm]", "x_mm"; empty: it names none
+};
 
 /// By its exact name, in small letters.
 std::optional<TouchColumn> column_called(std::string_view name) {
@@ -125,8 +85,6 @@ ColumnSource parse_source(std::string_view field, const std::string& what) {
   return source;
 }
 
-}  // namespace
-
 /// "x", "X [mm]", "x_mm" or "x mm": capitals do not matter, a unit is in brackets or behind the last "_" or blank.
 /// None: another column.
 std::optional<KnownColumn> touch_column(const HeaderName& header) {
@@ -143,86 +101,112 @@ std::optional<KnownColumn> touch_column(const HeaderName& header) {
   return KnownColumn{*column, std::string(unit->name)};
 }
 
-/// Columns of the options first: they take precedence over known names.
-TouchHeader::TouchHeader(const TableRow& row, const std::string& name, const TouchTableOptions& options)
-    : start_(where(name, row.line)) {
-  const std::vector<HeaderName> names = names_in(row);
-  count_ = names.size();
-  cell_.fill(kNone);
-  add_named(names, options);
-  add_known(names, options.unit);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const bool is_used = std::find(cell_.begin(), cell_.end(), k) != cell_.end();
-    if (!is_used && !names[k].text.empty()) ignored_.push_back(shown(names[k].text));
-  }
-  if (has(TouchColumn::x) && has(TouchColumn::y)) return;
-  throw InputError(
-      fmt::format("{}: expected a header with x and y, as in x,y,normal, found '{}'; `columns` x=NAME,y=NAME says what "
-                  "it calls them",
-                  start_, shown(row.text)));
-}
+/// Which cell of a row holds which column, and in what.
+class TouchHeader {
+ public:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// Those that the options name.
-void TouchHeader::add_named(const std::vector<HeaderName>& names, const TouchTableOptions& options) {
-  for (const ColumnSource& source : options.columns) {
-    const std::size_t cell = find(names, source);
-    // The option's unit, or that of the header.
-    const std::string unit = source.unit.empty() ? std::string(names[cell].unit) : source.unit;
-    set(*column_called(source.column), cell, unit, options.unit);
+  /// Throws InputError: no x or y, a column twice, one of `columns` that is not there, a unit that is not the column's.
+  /// Columns of the options first: they take precedence over known names.
+  TouchHeader(const TableRow& row, const std::string& name, const TouchTableOptions& options)
+      : start_(where(name, row.line)) {
+    const std::vector<HeaderName> names = names_in(row);
+    count_ = names.size();
+    cell_.fill(kNone);
+    add_named(names, options);
+    add_known(names, options.unit);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const bool is_used = std::find(cell_.begin(), cell_.end(), k) != cell_.end();
+      if (!is_used && !names[k].text.empty()) ignored_.push_back(shown(names[k].text));
+    }
+    if (has(TouchColumn::x) && has(TouchColumn::y)) return;
+    throw InputError(fmt::format(
+        "{}: expected a header with x and y, as in x,y,normal, found '{}'; `columns` x=NAME,y=NAME says what "
+        "it calls them",
+        start_, shown(row.text)));
   }
-}
 
-/// Those that have a known name, where the options do not name another.
-void TouchHeader::add_known(const std::vector<HeaderName>& names, const std::string& part_unit) {
-  // As the options left it: a known name twice is still refused by `set`.
-  const auto named = cell_;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::optional<KnownColumn> known = touch_column(names[k]);
-    const bool is_taken = std::find(named.begin(), named.end(), k) != named.end();
-    if (known && !is_taken && named[static_cast<std::size_t>(known->column)] == kNone) {
-      set(known->column, k, known->unit, part_unit);
+  /// Of cells in the header.
+  std::size_t count() const { return count_; }
+  bool has(TouchColumn column) const { return cell(column) != kNone; }
+  /// kNone: the table does not have it.
+  std::size_t cell(TouchColumn column) const { return cell_[static_cast<std::size_t>(column)]; }
+  /// To the part's unit, or to radians.
+  const Conversion& conversion(TouchColumn column) const { return conversion_[static_cast<std::size_t>(column)]; }
+  /// The names of columns that are not used.
+  const std::vector<std::string>& ignored() const { return ignored_; }
+
+ private:
+  /// Those that the options name.
+  void add_named(const std::vector<HeaderName>& names, const TouchTableOptions& options) {
+    for (const ColumnSource& source : options.columns) {
+      const std::size_t cell = find(names, source);
+      // The option's unit, or that of the header.
+      const std::string unit = source.unit.empty() ? std::string(names[cell].unit) : source.unit;
+      set(*column_called(source.column), cell, unit, options.unit);
     }
   }
-}
 
-/// Throws InputError: a second one, or a unit of the wrong dimension. Angles become radians, lengths the part's unit.
-void TouchHeader::set(TouchColumn column, std::size_t cell, const std::string& unit, const std::string& part_unit) {
-  const auto which = static_cast<std::size_t>(column);
-  if (cell_[which] != kNone) {
-    throw InputError(fmt::format("{}: expected one column {}, found two", start_, touch::name_of(column)));
+  /// Those that have a known name, where the options do not name another.
+  void add_known(const std::vector<HeaderName>& names, const std::string& part_unit) {
+    // As the options left it: a known name twice is still refused by `set`.
+    const auto named = cell_;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::optional<KnownColumn> known = touch_column(names[k]);
+      const bool is_taken = std::find(named.begin(), named.end(), k) != named.end();
+      if (known && !is_taken && named[static_cast<std::size_t>(known->column)] == kNone) {
+        set(known->column, k, known->unit, part_unit);
+      }
+    }
   }
-  cell_[which] = cell;
-  if (unit.empty()) return;
-  const std::optional<Unit> as_written = unit_named(unit);
-  // Units are taken as written first, since capitals can tell units apart, then in small letters.
-  const std::optional<Unit> known = as_written ? as_written : unit_named(lower_case(unit));
-  if (column == TouchColumn::contact || !known || known->dimension != dimension_of(column)) {
-    throw InputError(fmt::format("{}: column {}: expected {}, one of {}, found '{}'", start_, touch::name_of(column),
-                                 rollfix::name_of(dimension_of(column)), unit_names(dimension_of(column)),
-                                 shown(unit)));
-  }
-  const std::string what = fmt::format("{}: column {}", start_, touch::name_of(column));
-  if (is_of_angle(column)) {
-    conversion_[which] = conversion_to_plain(*known);
-  } else if (!part_unit.empty()) {
-    conversion_[which] = length_conversion(known->name, part_unit, what);
-  } else {
-    throw InputError(fmt::format("{} is in {}, and the part's unit is not known: state it with `unit`, as in `unit` {}",
-                                 what, known->name, known->name));
-  }
-}
 
-/// A column by its whole text or by its name without the unit.
-std::size_t TouchHeader::find(const std::vector<HeaderName>& names, const ColumnSource& source) const {
-  std::vector<std::string> all;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (names[k].text == source.name || names[k].name == source.name) return k;
-    all.emplace_back(names[k].name);
+  /// Throws InputError: a second one, or a unit of the wrong dimension. Angles become radians, lengths the part's unit.
+  void set(TouchColumn column, std::size_t cell, const std::string& unit, const std::string& part_unit) {
+    const auto which = static_cast<std::size_t>(column);
+    if (cell_[which] != kNone) {
+      throw InputError(fmt::format("{}: expected one column {}, found two", start_, touch::name_of(column)));
+    }
+    cell_[which] = cell;
+    if (unit.empty()) return;
+    const std::optional<Unit> as_written = unit_named(unit);
+    // Units are taken as written first, since capitals can tell units apart, then in small letters.
+    const std::optional<Unit> known = as_written ? as_written : unit_named(lower_case(unit));
+    if (column == TouchColumn::contact || !known || known->dimension != dimension_of(column)) {
+      throw InputError(fmt::format("{}: column {}: expected {}, one of {}, found '{}'", start_, touch::name_of(column),
+                                   rollfix::name_of(dimension_of(column)), unit_names(dimension_of(column)),
+                                   shown(unit)));
+    }
+    const std::string what = fmt::format("{}: column {}", start_, touch::name_of(column));
+    if (is_of_angle(column)) {
+      conversion_[which] = conversion_to_plain(*known);
+    } else if (!part_unit.empty()) {
+      conversion_[which] = length_conversion(known->name, part_unit, what);
+    } else {
+      throw InputError(
+          fmt::format("{} is in {}, and the part's unit is not known: state it with `unit`, as in `unit` {}", what,
+                      known->name, known->name));
+    }
   }
-  throw InputError(fmt::format("{}: expected a column '{}' for {} (`columns`), found none; {}", start_,
-                               shown(source.name), source.column, known_names(source.name, all)));
-}
 
+  /// A column by its whole text or by its name without the unit.
+  std::size_t find(const std::vector<HeaderName>& names, const ColumnSource& source) const {
+    std::vector<std::string> all;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (names[k].text == source.name || names[k].name == source.name) return k;
+      all.emplace_back(names[k].name);
+    }
+    throw InputError(fmt::format("{}: expected a column '{}' for {} (`columns`), found none; {}", start_,
+                                 shown(source.name), source.column, known_names(source.name, all)));
+  }
+
+  std::string start_;  // of messages
+  std::size_t count_ = 0;
+  std::array<std::size_t, kTouchColumnCount> cell_{};
+  std::array<Conversion, kTouchColumnCount> conversion_{};
+  std::vector<std::string> ignored_;
+};
+
+}  // namespace
 }  // namespace touch
 
 std::vector<ColumnSource> parse_touch_columns(std::string_view text) {
