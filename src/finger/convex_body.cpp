@@ -190,4 +190,19 @@ double depth_of_overlap(const Pose& jaw, const ConvexBody& other) {
   return (other.farthest(up) - Vec2(jaw.x, jaw.y)).dot(towards(up));
 }
 
+/// Above 0 if they overlap, below 0 if they are apart. Two jaws have no ends and always meet somewhere: they
+/// are not compared. `enough`: a depth below this need not be exact.
+double depth_of_overlap(const Finger& one, const Pose& pose_of_one, const Finger& other, const Pose& pose_of_other,
+                        double enough) {
+  if (one.is_jaw() && other.is_jaw()) return -std::numeric_limits<double>::infinity();
+  if (one.is_jaw()) return depth_of_overlap(pose_of_one, ConvexBody(other, pose_of_other));
+  if (other.is_jaw()) return depth_of_overlap(pose_of_other, ConvexBody(one, pose_of_one));
+  // Two disks: the sum of their radii less the distance of their centres.
+  if (one.is_disk() && other.is_disk()) {
+    const double distance = std::hypot(pose_of_one.x - pose_of_other.x, pose_of_one.y - pose_of_other.y);
+    return one.length_per_u() + other.length_per_u() - distance;
+  }
+  return depth_of_overlap(ConvexBody(one, pose_of_one), ConvexBody(other, pose_of_other), enough);
+}
+
 }  // namespace rollfix

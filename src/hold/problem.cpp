@@ -16,7 +16,7 @@
 
 // A problem's logs by number, what of it is refused, and what a mirror shows of it. Notation of wheels and fingers that
 // can't be where they are:
-//   depth      how far two bodies are in each other at a row, whatever the part does: `depth_of`
+//   depth      how far two bodies are in each other at a row, whatever the part does
 //   delta      how far x and y may be off, a wheel's radius as well; eps: of psi, of what is round 0: Body
 //   slack      delta_1 + delta_2 + eps |q_1 - q_2|, with noise kTouchSigmas of the root of their squares: `slack_of`
 namespace rollfix::hold {
@@ -206,14 +206,6 @@ std::vector<Body> bodies_of(const HoldProblem& problem, const HeldRows& rows, co
   return bodies;
 }
 
-/// How deep a finger and a wheel are in each other, length; below 0 they are apart. Of two disks the sum of radii
-/// less the distance of their centres.
-double depth_of(const Finger& finger, const Pose& pose, const Finger& wheel, const Pose& pin) {
-  if (finger.is_jaw()) return depth_of_overlap(pose, ConvexBody(wheel, pin));
-  if (!finger.is_disk()) return depth_of_overlap(ConvexBody(finger, pose), ConvexBody(wheel, pin), 0);
-  return finger.length_per_u() + wheel.length_per_u() - std::hypot(pose.x - pin.x, pose.y - pin.y);
-}
-
 /// How far off the depth can be: where the pin is seen from the finger's frame turns with that.
 double slack_of(const Body& finger, const Body& wheel, std::size_t row, bool has_noise) {
   const Pose at = finger.pose(row);
@@ -230,7 +222,7 @@ void require_apart(const Body& finger, const Body& wheel, bool has_noise) {
   std::size_t deepest = 0;
   double most = 0;
   for (std::size_t row = 0; row < wheel.log->rows(); ++row) {
-    const double depth = depth_of(finger.finger, finger.pose(row), wheel.finger, wheel.pose(row));
+    const double depth = depth_of_overlap(finger.finger, finger.pose(row), wheel.finger, wheel.pose(row), 0);
     if (depth <= slack_of(finger, wheel, row, has_noise)) continue;
     ++rows;
     if (depth > most) deepest = row;
