@@ -127,21 +127,38 @@ bool FingersApart::must_overlap(const std::vector<Interval>& first_contacts) con
 
 namespace {
 
-/// Rows in which two fingers are deeper in one another than they may be off.
+/// A finger, or behind all of them a wheel, as its log has it in the world.
+struct LoggedBody {
+  LoggedBody(const HoldProblem& problem, const std::vector<Log>& logs, std::size_t number)
+      : finger(shape_of(problem, number)), log(&logs[number]), is_wheel(number >= problem.logs.size()) {}
+
+  bool has_place() const { return !log->fingers.front().x.empty(); }
+  /// Of its frame at a row. A wheel may have no psi, and is the same however it is turned.
+  Pose pose(std::size_t row) const {
+    const FingerRows& rows = log->fingers.front();
+    return {rows.x[row], rows.y[row], is_wheel ? 0 : rows.psi[row]};
+  }
+
+  Finger finger;
+  const Log* log;
+  bool is_wheel;
+};
+
+/// Rows in which two bodies are deeper in one another than they may be off.
 struct Crossing {
   std::size_t rows = 0;
   std::size_t row = 0;  // the deepest of them
   double depth = 0;
 };
 
-/// Of two logs with x and y, in the world: the part plays no role. `slack`: a depth that counts as apart.
-Crossing crossing_of(const Log& a, const Log& b, const Finger& one, const Finger& other, double slack) {
+/// Of two logs with x and y, in the world: the part plays no role. `slack`: by the row, a depth that counts as apart.
+template <class Slack>
+Crossing crossing_of(const LoggedBody& one, const LoggedBody& other, const Slack& slack) {
   Crossing found;
-  const FingerRows &of_a = a.fingers.front(), &of_b = b.fingers.front();
-  for (std::size_t row = 0; row < of_a.x.size(); ++row) {
-    const Pose pose_a{of_a.x[row], of_a.y[row], of_a.psi[row]}, pose_b{of_b.x[row], of_b.y[row], of_b.psi[row]};
-    const double depth = depth_of_overlap(one, pose_a, other, pose_b, slack);
-    if (depth <= slack) continue;
+  for (std::size_t row = 0; row < one.log->rows(); ++row) {
+    const double allowed = slack(row);
+    const double depth = depth_of_overlap(one.finger, one.pose(row), other.finger, other.pose(row), allowed);
+    if (depth <= allowed) continue;
     ++found.rows;
     if (depth <= found.depth) continue;
     found.depth = depth;
@@ -157,6 +174,29 @@ double slack_of_centres(const HoldProblem& problem) {
   return kRefusedSigmas * std::numbers::sqrt2 * (problem.noise->position + problem.noise->radius);
 }
 
+/// How far off a body beside a wheel can be, or a wheel.
+struct Off {
+  double place = 0;  // its x and y, and a wheel's radius, length
+  double angle = 0;  // its orientation, radians; of what is round 0
+};
+
+Off off_of(const HoldProblem& problem, const HeldRows& rows, std::size_t number) {
+  if (number < problem.logs.size()) {
+    const HeldErrors& errors = rows.errors[number];
+    return {errors.place, finger_of_log(problem, number).is_disk() ? 0 : errors.angle};
+  }
+  const HeldWheel& errors = rows.wheels[number - problem.logs.size()];
+  return {std::hypot(errors.place, errors.radius), 0};
+}
+
+/// How far off the depth in a wheel can be. `pin`: where it is as seen from the body's place.
+double slack_of_pin(const Off& body, const Off& wheel, const Vec2& pin, bool has_noise) {
+  // An error of psi moves the pin, as the body's frame has it, by that angle times the distance.
+  const double turned = body.angle * std::hypot(pin.x(), pin.y());
+  if (!has_noise) return body.place + wheel.place + turned;
+  return kRefusedSigmas * std::hypot(body.place, wheel.place, turned);
+}
+
 /// "b.csv:17"; of simulated rows "b.csv, row 17".
 std::string place_of(const Log& log, std::size_t row) {
   const std::vector<std::size_t>& lines = log.fingers.front().line;
@@ -167,11 +207,12 @@ std::string place_of(const Log& log, std::size_t row) {
 
 void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
   if (problem.may_overlap || (problem.noise && problem.noise->position <= 0)) return;
+  const double slack = slack_of_centres(problem);
   for (std::size_t b = 1; b < problem.logs.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {
-      if (logs[a].fingers.front().x.empty() || logs[b].fingers.front().x.empty()) continue;
-      const Crossing found = crossing_of(logs[a], logs[b], finger_of_log(problem, a), finger_of_log(problem, b),
-                                         slack_of_centres(problem));
+      const LoggedBody one(problem, logs, a), other(problem, logs, b);
+      if (!one.has_place() || !other.has_place()) continue;
+      const Crossing found = crossing_of(one, other, [&](std::size_t) { return slack; });
       // Outliers among x and y are no refusal.
       const double allowed = problem.robust ? kStrayRows * static_cast<double>(logs[a].rows()) : 0;
       if (static_cast<double>(found.rows) <= allowed) continue;
@@ -180,8 +221,33 @@ void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
           "deep "
           "in each other, in {} of {} rows, whatever the part does; check the radii and the units of x and y, or if "
           "the fingers are at different heights say that they may overlap",
-          place_of(logs[a], found.row), place_of(logs[b], found.row), static_cast<char>('a' + a),
-          static_cast<char>('a' + b), found.depth, found.rows, logs[a].rows()));
+          place_of(logs[a], found.row), place_of(logs[b], found.row), finger_letter(a), finger_letter(b), found.depth,
+          found.rows, logs[a].rows()));
+    }
+  }
+}
+
+void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
+  if (problem.may_overlap || problem.wheels.empty()) return;
+  const HeldRows rows = held_rows(problem, logs);
+  for (std::size_t b = problem.logs.size(); b < logs.size(); ++b) {
+    // Each wheel with all fingers and the wheels before it.
+    for (std::size_t a = 0; a < b; ++a) {
+      const LoggedBody body(problem, logs, a), wheel(problem, logs, b);
+      if (!body.has_place()) continue;
+      const Off body_off = off_of(problem, rows, a), wheel_off = off_of(problem, rows, b);
+      const Crossing found = crossing_of(body, wheel, [&](std::size_t row) {
+        const Pose at = body.pose(row), pin = wheel.pose(row);
+        return slack_of_pin(body_off, wheel_off, {at.x - pin.x, at.y - pin.y}, rows.has_noise);
+      });
+      if (found.rows == 0) continue;
+      throw InputError(fmt::format(
+          "{}: expected x and y at which {} {} and wheel {} are apart, found them {:.4g} deep in each other, in {} of "
+          "{} rows, whatever the part does; check the radius and the unit of x and y{}; if they are at different "
+          "heights, or the jaw ends before the wheel, say that they may overlap",
+          place_of(logs[b], found.row), body.is_wheel ? "wheel" : "finger", finger_letter(a), finger_letter(b),
+          found.depth, found.rows, logs[b].rows(),
+          body.finger.is_disk() ? "" : ", and the unit and the direction of psi"));
     }
   }
 }

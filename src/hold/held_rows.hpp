@@ -92,6 +92,9 @@ const Finger& finger_of_log(const HoldProblem& problem, std::size_t log);
 /// The same of fingers and wheels. What a wheel's log is mirrored and measured as: a disk.
 Finger shape_of(const HoldProblem& problem, std::size_t number);
 
+/// How a finger is called, or a wheel: 0 is a.
+inline char finger_letter(std::size_t number) { return static_cast<char>('a' + number); }
+
 /// The logs of the fingers, then of the wheels.
 std::size_t count_of_logs(const HoldProblem& problem);
 const Log& log_of(const HoldProblem& problem, std::size_t number);
@@ -111,10 +114,5 @@ void require_valid(const HoldProblem& problem);
 
 /// Throws InputError where angles may be wrapped or not. `logs`: of fingers and wheels, as they are measured.
 void require_clear(const HoldProblem& problem, const std::vector<Log>& logs);
-
-/// Wheels have x and y, and so do the fingers beside them: whether they are in one another does not depend on the part.
-/// `logs`: aligned; of the fingers, then of the wheels. Throws InputError: in some row a finger and a wheel, or two
-/// wheels, enter each other farther than they can be off.
-void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& logs);
 
 }  // namespace rollfix::hold

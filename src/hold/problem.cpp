@@ -7,25 +7,17 @@
 #include <string>
 
 #include "box_search.hpp"
-#include "finger/convex_body.hpp"
 #include "log/log_rows.hpp"
 #include "log/mirrored.hpp"
 #include "roll/noise.hpp"
 #include "rollfix/belief.hpp"
 #include "rollfix/error.hpp"
 
-// A problem's logs by number, what of it is refused, and what a mirror shows of it. Notation of wheels and fingers that
-// can't be where they are:
-//   depth      how far two bodies are in each other at a row, whatever the part does
-//   delta      how far x and y may be off, a wheel's radius as well; eps: of psi, of what is round 0: Body
-//   slack      delta_1 + delta_2 + eps |q_1 - q_2|, with noise kTouchSigmas of the root of their squares: `slack_of`
+// A problem's logs by number, what of it is refused, and what a mirror shows of it.
 namespace rollfix::hold {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError("fingers on a free part: " + what); }
-
-/// 0 is a.
-char finger_letter(std::size_t finger) { return static_cast<char>('a' + finger); }
 
 /// Two bodies at least, one of them with skin; one finger that holds for all logs, or one for each. No finger with
 /// corners.
@@ -171,75 +163,6 @@ void require_noise(const HoldProblem& problem) {
   if (problem.tolerance) refuse("`noise` already says how far rows are off, found `tolerance` as well; leave one out");
 }
 
-/// A finger, or behind all of them a wheel, as its log has it in the world.
-struct Body {
-  Finger finger;
-  const Log* log = nullptr;
-  double place = 0;  // how far x and y may be off, and a wheel's radius, length
-  double angle = 0;  // how far its orientation may be off, radians; of what is round 0
-  std::string name{};
-
-  /// Of its frame in the world at a row. Of what is round the heading does not matter.
-  Pose pose(std::size_t row) const {
-    const FingerRows& rows = log->fingers.front();
-    return {rows.x[row], rows.y[row], finger.is_disk() ? 0 : rows.psi[row]};
-  }
-};
-
-/// Fingers, then wheels. `place` is the error of x and y, of a wheel with that of its radius.
-std::vector<Body> bodies_of(const HoldProblem& problem, const HeldRows& rows, const std::vector<Log>& logs) {
-  std::vector<Body> bodies;
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    const char letter = static_cast<char>('a' + k);
-    if (k < problem.logs.size()) {
-      const HeldErrors& errors = rows.errors[k];
-      const Finger& finger = finger_of_log(problem, k);
-      bodies.push_back(
-          {finger, &logs[k], errors.place, finger.is_disk() ? 0 : errors.angle, fmt::format("finger {}", letter)});
-      continue;
-    }
-    const std::size_t wheel = k - problem.logs.size();
-    const HeldWheel& errors = rows.wheels[wheel];
-    bodies.push_back({disk(problem.wheels[wheel].radius), &logs[k], std::hypot(errors.place, errors.radius), 0,
-                      fmt::format("wheel {}", letter)});
-  }
-  return bodies;
-}
-
-/// How far off the depth can be: where the pin is seen from the finger's frame turns with that.
-double slack_of(const Body& finger, const Body& wheel, std::size_t row, bool has_noise) {
-  const Pose at = finger.pose(row);
-  const Pose pin = wheel.pose(row);
-  // An error of psi moves the pin, as the finger's frame has it, by that angle times the distance.
-  const double turned = finger.angle * std::hypot(at.x - pin.x, at.y - pin.y);
-  if (!has_noise) return finger.place + wheel.place + turned;
-  return kTouchSigmas * std::hypot(finger.place, wheel.place, turned);
-}
-
-/// Throws InputError, naming the deepest row, if a wheel and another body enter each other in any row.
-void require_apart(const Body& finger, const Body& wheel, bool has_noise) {
-  std::size_t rows = 0;
-  std::size_t deepest = 0;
-  double most = 0;
-  for (std::size_t row = 0; row < wheel.log->rows(); ++row) {
-    const double depth = depth_of_overlap(finger.finger, finger.pose(row), wheel.finger, wheel.pose(row), 0);
-    if (depth <= slack_of(finger, wheel, row, has_noise)) continue;
-    ++rows;
-    if (depth > most) deepest = row;
-    most = std::max(most, depth);
-  }
-  if (rows == 0) return;
-  const std::vector<std::size_t>& lines = wheel.log->fingers.front().line;
-  const std::string where = deepest < lines.size() ? fmt::format("{}:{}", wheel.log->name, lines[deepest])
-                                                   : fmt::format("{}, row {}", wheel.log->name, deepest + 1);
-  throw InputError(fmt::format(
-      "{}: expected x and y at which {} and {} are apart, found them {:.4g} deep in each other, in {} of {} rows, "
-      "whatever the part does; check the radius and the unit of x and y{}; if they are at different heights, or the "
-      "jaw ends before the wheel, say that they may overlap",
-      where, finger.name, wheel.name, most, rows, wheel.log->rows(),
-      finger.finger.is_disk() ? "" : ", and the unit and the direction of psi"));
-}
-
 }  // namespace
 
 /// Each test names what was expected, what was found, and where.
@@ -264,16 +187,6 @@ void require_clear(const HoldProblem& problem, const std::vector<Log>& logs) {
   for (std::size_t k = 0; k < logs.size(); ++k) {
     const bool has_angles = !logs[k].fingers.front().psi.empty();  // a wheel without an encoder has none
     if (has_angles) rollfix::require_clear(logs[k], 0, shape_of(problem, k));
-  }
-}
-
-/// Each wheel against all fingers and the wheels before it: the depth does not depend on the part.
-void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
-  if (problem.may_overlap || problem.wheels.empty()) return;
-  const HeldRows rows = held_rows(problem, logs);
-  const std::vector<Body> bodies = bodies_of(problem, rows, logs);
-  for (std::size_t wheel = problem.logs.size(); wheel < bodies.size(); ++wheel) {
-    for (std::size_t other = 0; other < wheel; ++other) require_apart(bodies[other], bodies[wheel], rows.has_noise);
   }
 }
 

@@ -45,8 +45,12 @@ class FingersApart {
   double radius_slack_ = 0;  // of two radii together, length; without noise 0
 };
 
-/// Throws InputError: two fingers enter each other by their own x and y, whatever the part does. `logs`: aligned.
+/// Throws InputError: two fingers enter each other by their own x and y, whatever the part does. `logs`: aligned; of
+/// the fingers, then of the wheels. What has no x and y is not compared.
 void require_apart(const HoldProblem& problem, const std::vector<Log>& logs);
+
+/// The same of a finger and a wheel, and of two wheels, farther than they can be off.
+void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& logs);
 
 // With noise: the posterior of first contacts, from the boxes that are left to the places of the answer.
 

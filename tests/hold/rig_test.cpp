@@ -248,6 +248,15 @@ TEST(Rig, AWheelBesideTheJawIsNotRefused) {
   for (const RigCase& one : rigs_whose_wheel_is_in_the_jaw(false, 3)) EXPECT_NO_THROW(rollfix::solve(one.problem));
 }
 
+TEST(Rig, AFingerWithoutXAndYIsNotComparedWithAWheel) {
+  RigCase one = rigs_whose_wheel_is_in_the_jaw(false, 1).front();
+  Log other = one.problem.logs[0];
+  other.fingers[0].x.clear();
+  other.fingers[0].y.clear();
+  one.problem.logs.push_back(other);
+  EXPECT_NO_THROW(rollfix::solve(one.problem));
+}
+
 TEST(Rig, WithNoiseAWheelThatTouchesTheJawIsNotRefused) {
   // As deep in the jaw as the noise may make it.
   RigCase one = random_on(cam(), 1);
