@@ -1,4 +1,3 @@
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -34,9 +33,6 @@ Reading mirrored(Reading reading) {
   return reading;
 }
 
-/// A pose seen in the mirror x -> -x, with the part mirrored as well.
-Pose mirrored(const Pose& pose) { return {-pose.x, pose.y, -pose.heading}; }
-
 /// ds/dtheta, ds/dL and ds/dfacing: s stays, the three measurements change their signs.
 void mirror(Sensitivity& sensitivity) {
   for (auto& readings : sensitivity.per_turn) {
@@ -46,16 +42,12 @@ void mirror(Sensitivity& sensitivity) {
   for (double& value : sensitivity.per_facing) value = -value;
 }
 
-/// Poses, and their covariance as M C M with M = diag(-1, 1, -1). s and the tangent are those of the stored outline.
+/// Poses. s and the tangent are those of the stored outline.
 void mirror(Placement& placement) {
   mirror(placement.sensitivity);
   // The pose of each row, and what all rows together say of it.
   for (Pose& pose : placement.pose) pose = mirrored(pose);
-  if (!placement.pose_spread) return;
-  placement.pose_spread->mean = mirrored(placement.pose_spread->mean);
-  const Eigen::Vector3d signs(-1, 1, -1);
-  placement.pose_spread->covariance =
-      Eigen::Matrix3d(signs.asDiagonal() * placement.pose_spread->covariance * signs.asDiagonal());
+  if (placement.pose_spread) placement.pose_spread = mirrored(*placement.pose_spread);
 }
 
 /// Sensitivities are to the lengths as they were given.

@@ -8,6 +8,7 @@
 #include "hold/held_rows.hpp"
 #include "hold/hold_fit.hpp"
 #include "hold/steps.hpp"
+#include "log/mirrored.hpp"
 #include "outline/turn.hpp"
 #include "places.hpp"
 #include "rollfix/certify.hpp"
@@ -345,7 +346,7 @@ void take_out_of_mirror(HoldCertificate& certificate) {
   for (CertifiedHoldSet& set : certificate.sets) {
     for (double& zero : set.zeros) zero = -zero;
     for (CertifiedLie& lie : set.lies) {
-      lie.pose = {-lie.pose.x, lie.pose.y, -lie.pose.heading};
+      lie.pose = mirrored(lie.pose);
       for (auto& off : lie.off) off[1] = -off[1];
       for (CertifiedLie::Wheel& wheel : lie.wheels) {
         wheel.off[1] = -wheel.off[1];

@@ -289,20 +289,15 @@ HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
     mirror(logs[k].fingers.front(), &finger);
   }
   for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
-  if (result.pose) result.pose->mean = {-result.pose->mean.x, result.pose->mean.y, -result.pose->mean.heading};
+  if (result.pose) result.pose->mean = rollfix::mirrored(result.pose->mean);
   return result;
 }
 
-/// Poses back: x and heading change their signs, and so do their covariances with y. Places s on the part stay.
+/// Poses back. Places s on the part stay.
 void out_of_mirror(HoldAnswer& answer) {
-  const Eigen::Vector3d signs(-1, 1, -1);
   for (HoldPlacement& placement : answer.placements) {
-    for (Pose* pose : {&placement.first, &placement.last, &placement.first_spread.mean, &placement.last_spread.mean}) {
-      *pose = {-pose->x, pose->y, -pose->heading};
-    }
-    for (PoseSpread* spread : {&placement.first_spread, &placement.last_spread}) {
-      spread->covariance = Eigen::Matrix3d(signs.asDiagonal() * spread->covariance * signs.asDiagonal());
-    }
+    for (Pose* pose : {&placement.first, &placement.last}) *pose = rollfix::mirrored(*pose);
+    for (PoseSpread* spread : {&placement.first_spread, &placement.last_spread}) *spread = rollfix::mirrored(*spread);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "log/mirrored.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +11,7 @@
 //   u, psi          contact on the finger and the finger's orientation; in the mirror -u (on an open finger its
 //                   length less u) and pi - psi, of a jaw -psi
 //   L, theta        length and turn; in the mirror -L and -theta
+//   (x, y, heading) a pose of the part; in the mirror (-x, y, -heading)
 // Follows src/answer/steps.hpp, View, which mirrors a problem likewise.
 // Idea: a part that lies face down, felt by a finger, is the part as it was drawn, felt by the finger's mirror image.
 // So the log and the finger are mirrored, and the outline stays.
@@ -72,6 +74,14 @@ void mirror(FingerRows& rows, const Finger* finger) {
   negate(rows.distance);
   negate(rows.dturn);
   negate(rows.x);
+}
+
+Pose mirrored(const Pose& pose) { return {-pose.x, pose.y, -pose.heading}; }
+
+/// The covariance is M C M, M = diag(-1, 1, -1).
+PoseSpread mirrored(const PoseSpread& spread) {
+  const Eigen::Vector3d signs(-1, 1, -1);
+  return {mirrored(spread.mean), Eigen::Matrix3d(signs.asDiagonal() * spread.covariance * signs.asDiagonal())};
 }
 
 }  // namespace rollfix

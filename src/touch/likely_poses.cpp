@@ -8,6 +8,7 @@
 
 #include "centre_path.hpp"
 #include "free_space.hpp"
+#include "log/mirrored.hpp"
 #include "measured.hpp"
 #include "outline/turn.hpp"
 #include "pose_fit.hpp"
@@ -202,15 +203,12 @@ TouchProblem problem_of(const TouchAnswer& answer) {
 }
 
 /// As it is, or as a mirror shows it.
-/// x and the heading change their signs, and with them their covariances.
-PosteriorNode node_of(const LikelyPose& one, bool mirrored) {
+PosteriorNode node_of(const LikelyPose& one, bool face_down) {
+  PoseSpread seen{one.pose, one.covariance};
+  if (face_down) seen = mirrored(seen);
   PosteriorNode node;
-  node.pose = one.pose;
-  node.covariance = one.covariance;
-  if (!mirrored) return node;
-  const Eigen::Vector3d signs(-1, 1, -1);
-  node.pose = {-one.pose.x, one.pose.y, -one.pose.heading};
-  node.covariance = Eigen::Matrix3d(signs.asDiagonal() * one.covariance * signs.asDiagonal());
+  node.pose = seen.mean;
+  node.covariance = seen.covariance;
   return node;
 }
 

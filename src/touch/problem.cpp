@@ -239,15 +239,12 @@ void mirror(RollFacts& roll) {
 /// (X, Y, phi) becomes (-X, Y, -phi): x and the heading change their signs in extents, intervals, means, densities and
 /// in the covariance.
 void mirror(TouchPose& pose) {
-  pose.pose = {-pose.pose.x, pose.pose.y, -pose.pose.heading};
+  pose.pose = mirrored(pose.pose);
   for (std::array<Interval, 3>* one : {&pose.extent, &pose.interval}) {
     (*one)[0] = negative((*one)[0]);
     (*one)[2] = negative((*one)[2]);
   }
-  Pose& mean = pose.spread.mean;
-  mean = {-mean.x, mean.y, -mean.heading};
-  const Eigen::Vector3d signs(-1, 1, -1);
-  pose.spread.covariance = Eigen::Matrix3d(signs.asDiagonal() * pose.spread.covariance * signs.asDiagonal());
+  pose.spread = mirrored(pose.spread);
   for (const std::size_t i : {0U, 2U}) {
     for (MixtureTerm& term : pose.density[i]) term.mean = -term.mean;
   }
@@ -322,7 +319,7 @@ TouchProblem in_mirror(const TouchProblem& problem) {
   for (Log& roll : result.rolls) mirror(roll.fingers.front(), problem.finger ? &*problem.finger : nullptr);
   // A finger with an outline is mirrored too; a disk of touches is its own image.
   if (result.finger && !result.rolls.empty()) result.finger = rollfix::mirrored(*problem.finger);
-  if (result.pose) result.pose->mean = {-problem.pose->mean.x, problem.pose->mean.y, -problem.pose->mean.heading};
+  if (result.pose) result.pose->mean = mirrored(result.pose->mean);
   return result;
 }
 
