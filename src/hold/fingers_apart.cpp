@@ -10,6 +10,7 @@
 #include "box_search.hpp"
 #include "finger/convex_body.hpp"
 #include "held_rows.hpp"
+#include "log/log_rows.hpp"
 #include "part/turning_range.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/rolling.hpp"
@@ -197,12 +198,6 @@ double slack_of_pin(const Off& body, const Off& wheel, const Vec2& pin, bool has
   return kRefusedSigmas * std::hypot(body.place, wheel.place, turned);
 }
 
-/// "b.csv:17"; of simulated rows "b.csv, row 17".
-std::string place_of(const Log& log, std::size_t row) {
-  const std::vector<std::size_t>& lines = log.fingers.front().line;
-  return row < lines.size() ? fmt::format("{}:{}", log.name, lines[row]) : fmt::format("{}, row {}", log.name, row + 1);
-}
-
 }  // namespace
 
 void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
@@ -221,7 +216,7 @@ void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
           "deep "
           "in each other, in {} of {} rows, whatever the part does; check the radii and the units of x and y, or if "
           "the fingers are at different heights say that they may overlap",
-          place_of(logs[a], found.row), place_of(logs[b], found.row), finger_letter(a), finger_letter(b), found.depth,
+          where(logs[a], 0, found.row), where(logs[b], 0, found.row), finger_letter(a), finger_letter(b), found.depth,
           found.rows, logs[a].rows()));
     }
   }
@@ -245,7 +240,7 @@ void require_wheels_apart(const HoldProblem& problem, const std::vector<Log>& lo
           "{}: expected x and y at which {} {} and wheel {} are apart, found them {:.4g} deep in each other, in {} of "
           "{} rows, whatever the part does; check the radius and the unit of x and y{}; if they are at different "
           "heights, or the jaw ends before the wheel, say that they may overlap",
-          place_of(logs[b], found.row), body.is_wheel ? "wheel" : "finger", finger_letter(a), finger_letter(b),
+          where(logs[b], 0, found.row), body.is_wheel ? "wheel" : "finger", finger_letter(a), finger_letter(b),
           found.depth, found.rows, logs[b].rows(),
           body.finger.is_disk() ? "" : ", and the unit and the direction of psi"));
     }

@@ -29,13 +29,6 @@ namespace rollfix {
 
 namespace {
 
-/// "run.csv:12". Simulated rows have no lines: they are numbered.
-std::string place_of(const Log& log, std::size_t finger, std::size_t row) {
-  const FingerRows& rows = log.fingers[finger];
-  const std::string& name = rows.name.empty() ? log.name : rows.name;
-  return row < rows.line.size() ? fmt::format("{}:{}", name, rows.line[row]) : fmt::format("{}, row {}", name, row + 1);
-}
-
 constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
@@ -48,7 +41,7 @@ void require_clear(const Log& log, std::size_t which, const Finger& finger) {
     throw InputError(fmt::format(
         "{}: {}{} goes from {:.6g} to {:.6g} in one row, which is more than half way round: whether it is "
         "wrapped there can't be told, because the rows are far apart; say it with `wrapped` no, or `wrapped` yes",
-        place_of(log, which, *row), name_of(column), log.fingers.size() == 1 ? "" : kFingerSuffixes[which],
+        where(log, which, *row), name_of(column), log.fingers.size() == 1 ? "" : kFingerSuffixes[which],
         angles[*row - 1], angles[*row]));
   };
   require(Column::u, rows.u, unclear_step(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped));
@@ -197,7 +190,7 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
     const FingerRows& rows = log.fingers[k];
     for (std::size_t row = 0; row < log.rows(); ++row) {
       const auto why = check.off_finger(k, rows.u[row], rows.place_rounding);
-      if (why) throw InputError(fmt::format("{}: {}", place_of(log, k, row), *why));
+      if (why) throw InputError(fmt::format("{}: {}", where(log, k, row), *why));
     }
   }
   PerFinger<std::size_t> line = PerFinger<std::size_t>::of(count);
@@ -214,7 +207,7 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
     // The first jump ends it: the message has its rows, what is wrong, and what to type.
     if (const auto jump = check.jump(line, before, now, time)) {
       throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}{}{}",
-                                   place_of(log, jump->finger, row), jump->why,
+                                   where(log, jump->finger, row), jump->why,
                                    cure_of_jump(log, part, fingers, noise, jump->finger, row),
                                    log.notes.empty() ? "" : "; ", fmt::join(log.notes, "; ")));
     }

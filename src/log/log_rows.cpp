@@ -291,6 +291,12 @@ void RowReader::require_width() const {
   }
 }
 
+std::string where(const Log& log, std::size_t finger, std::size_t row) {
+  const FingerRows& rows = log.fingers[finger];
+  const std::string& name = rows.name.empty() ? log.name : rows.name;
+  return row < rows.line.size() ? where(name, rows.line[row]) : fmt::format("{}, row {}", name, row + 1);
+}
+
 void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* finger, const std::string& log) {
   if (!dimension || finger == nullptr || finger->is_disk() == (*dimension == Dimension::angle)) return;
   // Of a disk u is an angle, of a jaw or an outline a length: the message says how to convert.

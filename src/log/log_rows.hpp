@@ -138,6 +138,9 @@ class RowReader {
   std::size_t time_line_ = 0;     // 0: there was none
 };
 
+/// A row for messages: "run.csv:12". Simulated rows have no lines: "the roll on cam, row 12".
+std::string where(const Log& log, std::size_t finger, std::size_t row);
+
 /// What the options say of one of two files.
 LogOptions options_for_finger(const LogOptions& options, std::size_t finger);
 

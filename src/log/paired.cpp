@@ -37,12 +37,6 @@ std::string columns_in(const Log& log) {
   return "distance and dturn";
 }
 
-/// Simulated rows come from no file.
-std::string row_in_file(const Log& log, std::size_t row) {
-  const std::vector<std::size_t>& line = log.fingers[0].line;
-  return line.empty() ? fmt::format("{}, row {}", log.name, row + 1) : where(log.name, line[row]);
-}
-
 /// Seconds from the first row to the last. REQUIRES times.
 double duration_of(const Log& log) { return log.time.back() - log.time.front(); }
 
@@ -122,7 +116,7 @@ void require_same_times(const Log& a, const Log& b) {
     throw InputError(
         fmt::format("{} is at the time {} and {} at {}: expected the same times in both logs, row by row; resample one "
                     "of them",
-                    row_in_file(a, k), a.time[k], row_in_file(b, k), b.time[k]));
+                    where(a, 0, k), a.time[k], where(b, 0, k), b.time[k]));
   }
 }
 
@@ -133,7 +127,7 @@ void require_same_rows(const Log& a, const Log& b) {
   const Log& shorter = a.rows() > b.rows() ? b : a;
   throw InputError(
       fmt::format("{} has {} rows and {} has {}: expected the same instants in both, but {} has no partner", a.name,
-                  a.rows(), b.name, b.rows(), row_in_file(longer, shorter.rows())));
+                  a.rows(), b.name, b.rows(), where(longer, 0, shorter.rows())));
 }
 
 }  // namespace
