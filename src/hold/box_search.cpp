@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "work/pulse.hpp"
+#include "work/union_find.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
 //   [lo, hi]        an arc of first contacts s_i: `arc`
@@ -219,12 +220,6 @@ constexpr double kSameArc = 1e-12;       // arcs that share an end, of the perim
 
 using touch::HeadingArc;
 
-/// The head of k's set in a union-find forest; halves the paths on the way.
-std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
-  while (parent[k] != k) k = parent[k] = parent[parent[k]];
-  return k;
-}
-
 /// Instants of so many in which some finger's measurement is an outlier, but for a chance of kMoreMisses.
 std::size_t most_misses(const HeldRows& rows, std::size_t instants) {
   // At an instant all measurements are right with (1 - share)^fingers; the number of misses is binomial.
@@ -427,8 +422,7 @@ std::vector<std::vector<Box>> sets_of(HoldBoxSearch& search, const std::vector<B
   std::vector<std::pair<double, std::size_t>> order;  // by the first finger's arcs
   for (std::size_t b = 0; b < boxes.size(); ++b) order.emplace_back(search.tree(0).arc(boxes[b][0]).lo, b);
   std::sort(order.begin(), order.end());
-  std::vector<std::size_t> parent(boxes.size());
-  for (std::size_t b = 0; b < boxes.size(); ++b) parent[b] = b;
+  UnionFind joined(boxes.size());
   // Arcs that share an end touch; rounding must not part them.
   const auto touching = [&](const Box& one, const Box& other) {
     for (std::size_t k = 0; k < search.fingers(); ++k) {
@@ -439,8 +433,7 @@ std::vector<std::vector<Box>> sets_of(HoldBoxSearch& search, const std::vector<B
     return true;
   };
   const auto join_with = [&](std::size_t a, std::size_t b) {
-    const std::size_t one = find(parent, a), other = find(parent, b);
-    if (one != other && touching(boxes[a], boxes[b])) parent[std::max(one, other)] = std::min(one, other);
+    if (joined.find(a) != joined.find(b) && touching(boxes[a], boxes[b])) joined.join(a, b);
   };
   for (std::size_t i = 0; i < order.size(); ++i) {
     beat();
@@ -455,16 +448,11 @@ std::vector<std::vector<Box>> sets_of(HoldBoxSearch& search, const std::vector<B
       join_with(order[i].second, order[j].second);
     }
   }
+  // Sets come in the order of their first boxes.
   std::vector<std::vector<Box>> sets;
-  std::vector<std::size_t> set_of(boxes.size(), boxes.size());
-  for (std::size_t b = 0; b < boxes.size(); ++b) {
-    // Sets come in the order of their first boxes.
-    const std::size_t head = find(parent, b);
-    if (set_of[head] == boxes.size()) {
-      set_of[head] = sets.size();
-      sets.emplace_back();
-    }
-    sets[set_of[head]].push_back(boxes[b]);
+  for (const std::vector<std::size_t>& members : joined.sets()) {
+    std::vector<Box>& set = sets.emplace_back();
+    for (const std::size_t b : members) set.push_back(boxes[b]);
   }
   return sets;
 }

@@ -17,13 +17,15 @@
 #include <utility>
 #include <vector>
 
+#include "work/union_find.hpp"
+
 // Notation:
 //   c(u)            a curve over its domain, c' its velocity
 //   length, area    integrals of |c'|, and of (c - c(front)) x c' (twice the area), by Gauss and Kronrod's rule
 //   gap             ends that are no further apart meet: EndClusters, the clusters of single linkage
 //   square          of a grid of side 0.7 gap, whose diagonal is below the gap: Square
 //   depth           of a polygon: how many others are around it, told by a point inside of it
-// Follows docs/files.md, "Loops". The clusters are kept by union-find, with path halving.
+// Follows docs/files.md, "Loops".
 // Idea: the ends in one square are one cluster, and squares at most two apart are looked at point by point; so any
 // number of ends takes little more time than to sort them. Around a loop is the smallest of the larger ones that hold a
 // point of it.
@@ -122,28 +124,6 @@ Polygon polygon_of(const Outline& outline) {
 
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-/// Disjoint sets with path halving.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-
-  /// The least member of the set that holds it: join() keeps the lower root.
-  std::size_t root(std::size_t one) {
-    while (parent_[one] != one) one = parent_[one] = parent_[parent_[one]];
-    return one;
-  }
-  /// Makes one set of both.
-  void join(std::size_t a, std::size_t b) {
-    const std::size_t first = std::min(root(a), root(b));
-    parent_[std::max(root(a), root(b))] = first;
-  }
-
- private:
-  std::vector<std::size_t> parent_;  // a root is its own
-};
-
 /// A square of a grid, with points in it. Its diagonal is just below the gap: all of them are one cluster.
 struct Square {
   std::int64_t column = 0;
@@ -181,8 +161,8 @@ std::vector<Square> squares_of(const std::vector<Vec2>& places, double side, std
 
 /// Single linkage: the sets of points connected by steps of at most the gap. Sorting decides the time; a square is
 /// compared only with those at most two columns and two rows away.
-EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_(points.size(), kNone) {
-  Sets sets(points.size());
+EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_(points.size()) {
+  UnionFind sets(points.size());
   std::vector<std::size_t> sorted;
   const std::vector<Square> squares = squares_of(points, 0.7 * gap, sorted);
   const auto are_near = [&](const Square& one, const Square& other) {
@@ -210,20 +190,14 @@ EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_
       for (std::size_t j = begin; j < k && squares[j].column == from.first && squares[j].row <= own.row + 2; ++j) {
         const std::size_t one = sorted[own.first];
         const std::size_t other = sorted[squares[j].first];
-        if (sets.root(one) != sets.root(other) && are_near(own, squares[j])) sets.join(one, other);
+        if (sets.find(one) != sets.find(other) && are_near(own, squares[j])) sets.join(one, other);
       }
     }
   }
   // Clusters are numbered in the order of their first points.
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::size_t root = sets.root(k);  // never above k: it has its number by now
-    if (root == k) {
-      cluster_[k] = members_.size();
-      members_.emplace_back();
-    } else {
-      cluster_[k] = cluster_[root];
-    }
-    members_[cluster_[k]].push_back(k);
+  members_ = sets.sets();
+  for (std::size_t cluster = 0; cluster < members_.size(); ++cluster) {
+    for (const std::size_t point : members_[cluster]) cluster_[point] = cluster;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "work/pulse.hpp"
+#include "work/union_find.hpp"
 
 // Notation:
 //   q_i, delta_i    a touch's measured centre, and how far it may be off: `Measured::at`, `place_most`
@@ -343,21 +344,6 @@ void CellSearch::split(const Cell& cell, const Lists& lists) {
     (is_first ? child.first : child.second) = half;
     visit(child, lists);
   }
-}
-
-// `index` has the number of each root's set, given out in order of the first members.
-std::vector<std::vector<std::size_t>> UnionFind::sets() {
-  std::vector<std::vector<std::size_t>> result;
-  std::vector<std::size_t> index(parent_.size(), parent_.size());
-  for (std::size_t k = 0; k < parent_.size(); ++k) {
-    const std::size_t root = find(k);
-    if (index[root] == parent_.size()) {
-      index[root] = result.size();
-      result.emplace_back();
-    }
-    result[index[root]].push_back(k);
-  }
-  return result;
 }
 
 /// Two levels of union and find: cells to groups, within columns, and groups to components, between columns. O(n log n)

@@ -118,26 +118,4 @@ struct CellSets {
 /// `first`, `second`: the trees that the cells' nodes are of.
 CellSets sets_of(const PathTree& first, const PathTree& second, std::vector<Cell> cells);
 
-/// Sets that are joined one by one.
-/// With path halving, without ranks.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    for (std::size_t k = 0; k < count; ++k) parent_[k] = k;
-  }
-  /// The one that stands for the set that k is in.
-  std::size_t find(std::size_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  /// The second's set becomes part of the first's.
-  void join(std::size_t one, std::size_t other) { parent_[find(other)] = find(one); }
-  /// The sets' members, in order of their first ones.
-  std::vector<std::vector<std::size_t>> sets();
-
- private:
-  // Of a root the root itself.
-  std::vector<std::size_t> parent_;
-};
-
 }  // namespace rollfix::touch

@@ -10,6 +10,7 @@
 
 #include "posterior.hpp"
 #include "roll_belief.hpp"
+#include "work/union_find.hpp"
 
 // Notation:
 //   group          cells that hang together and have one place of the first touch: docs/touch.md, "How it works"

@@ -11,6 +11,7 @@
 
 #include "cell_search.hpp"
 #include "outline/turn.hpp"
+#include "work/union_find.hpp"
 
 // Notation:
 //   tau_k, eps_k   direction of the part's tangent in the world at contact k, and how far it may be off

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "components.hpp"
+#include "work/union_find.hpp"
 
 // Notation:
 //   piece           a connected set of pairs (s, t) within the tolerance: a box, a convex `hull`, or a `line`, off by
@@ -133,22 +133,6 @@ bool is_a_point(const PairPiece& piece, double width) {
          std::max(piece.box[0].width(), piece.box[1].width()) + piece.error <= width;
 }
 
-/// Disjoint sets of the numbers below `count` (union-find), at first of one number each.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-
-  /// The number that stands for the set. Paths are halved on the way.
-  std::size_t of(std::size_t number) {
-    while (parent_[number] != number) number = parent_[number] = parent_[parent_[number]];
-    return number;
-  }
-  void join(std::size_t one, std::size_t two) { parent_[of(two)] = of(one); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 /// Finds for each piece those that it touches, without looking at all pairs.
 class Linker {
  public:
@@ -197,7 +181,7 @@ class Linker {
   /// Would a link between two pieces change nothing? They hang together already, and one of them is not exact: only a
   /// family is walked along all of its links.
   bool adds_nothing(std::size_t one, std::size_t two) {
-    return joined_.of(one) == joined_.of(two) && !(pieces_[one].exact && pieces_[two].exact);
+    return joined_.find(one) == joined_.find(two) && !(pieces_[one].exact && pieces_[two].exact);
   }
 
   /// Joins each clump to its first piece, which stands for it from here on: returns what is left to be swept.
@@ -375,7 +359,7 @@ class Linker {
   const Boundary& boundary_;
   double same_place_;
   std::vector<double> room_;       // around each piece for the rest of its clump
-  Sets joined_;                    // what hangs together by links
+  UnionFind joined_;               // what hangs together by links
   std::vector<Interval> reach_;    // of each piece along the slant
   std::vector<std::size_t> rank_;  // of each piece
   std::vector<std::vector<PieceLink>> links_;
