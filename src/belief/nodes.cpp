@@ -85,15 +85,14 @@ void add_share(FeltCentre& sum, double factor, const FeltCentre& felt) {
   sum.arm.per_length += factor * felt.arm.per_length;
 }
 
-/// Of an even number the mean of the two in the middle. It sorts the values in part.
+}  // namespace
+
 double median(std::span<double> values) {
   const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), upper, values.end());
   if (values.size() % 2 == 1) return *upper;
   return 0.5 * (*upper + *std::max_element(values.begin(), upper));
 }
-
-}  // namespace
 
 /// Number by number: lengths and turn of the result need not be of one row.
 Reading median_of(std::span<const Reading> rows) {

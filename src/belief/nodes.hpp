@@ -138,6 +138,9 @@ class RowBlocks {
   RowCovariance own_;  // of one of its rows
 };
 
+/// Of an even number of values the mean of the two in the middle. It sorts the values in part. REQUIRES at least one.
+double median(std::span<double> values);
+
 // Rows of which a median is taken: enough that several outliers don't matter, few enough to lie close together.
 inline constexpr std::size_t kRowsOfMedian = 16;
 /// What rows that are taken together come to: each number's median. REQUIRES no more than kRowsOfMedian.

@@ -1,6 +1,7 @@
 #include "belief/posterior.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -46,6 +47,11 @@ double component(const std::pmr::vector<double>& values, std::size_t k) {
 }
 
 }  // namespace
+
+/// 1 less its distribution function: Q(n / 2, chi^2 / 2), the regularised upper incomplete gamma function.
+double p_of_chi_square(double chi_square, double freedom) {
+  return boost::math::gamma_q(0.5 * freedom, 0.5 * chi_square);
+}
 
 /// Neyman's test over all equations together; their slow components add up to one chi-square. `freedom`: see the
 /// header.

@@ -45,6 +45,9 @@ void require_weighable(const Noise& noise);
 
 inline double square(double x) { return x * x; }
 
+/// The probability of a chi-square at least as large, of `freedom` > 0 degrees of freedom.
+double p_of_chi_square(double chi_square, double freedom);
+
 /// The standard normal deviate that is as unlikely as this chi-square (Wilson and Hilferty 1931): its cube root is
 /// nearly normal, with mean 1 - 2 / (9 n) and variance 2 / (9 n) for chi_square / n, n = `freedom` > 0.
 inline double normal_deviate(double chi_square, double freedom) {

@@ -158,14 +158,6 @@ void count_alike(std::size_t finger, HeldRows& held) {
 constexpr double kMedianVariance = 0.5 * std::numbers::pi;  // of a median, in those of a mean
 constexpr std::size_t kMostMeans = 512;                     // rows that fits take, however long the log is
 
-/// Of an even number of values the mean of the middle two. REQUIRES at least one value.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 /// The same by medians, which an outlier does not move. The curvature at the contact and the rows at one corner stay
 /// means: `mean`.
 HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, std::size_t finger,
@@ -173,7 +165,7 @@ HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::s
   const auto of = [&](auto number) {
     std::vector<double> values;
     for (std::size_t k = from; k < to; ++k) values.push_back(number(rows[k].contacts[finger]));
-    return median(std::move(values));
+    return belief::median(values);
   };
   mean.travelled = of([](const HeldContact& one) { return one.travelled; });
   mean.tangent = of([](const HeldContact& one) { return one.tangent; });

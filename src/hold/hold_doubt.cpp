@@ -1,10 +1,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "belief/posterior.hpp"
 #include "hold_fit.hpp"
 #include "outline/turn.hpp"
 
@@ -34,8 +34,8 @@ constexpr double kArmTail = 6;
 // Rows, evenly spread, before which each finger may have slipped.
 constexpr std::size_t kSlipPlaces = 16;
 
-/// Probability of a chi-square at least as large.
-double p_of(double square, double freedom) { return boost::math::gamma_q(0.5 * freedom, 0.5 * std::max(0.0, square)); }
+/// Squares that rounding made less than 0 are 0.
+double p_of(double square, double freedom) { return belief::p_of_chi_square(std::max(0.0, square), freedom); }
 
 }  // namespace
 

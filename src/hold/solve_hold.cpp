@@ -2,12 +2,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
 
+#include "belief/posterior.hpp"
 #include "held_rows.hpp"
 #include "hold_fit.hpp"
 #include "locate/remaining.hpp"
@@ -241,7 +241,7 @@ TouchFit fit_of(const HoldFit& fit, const HeldState& state) {
   result.chi_square = state.right_square;
   const double freedom = fit.freedom(state);
   result.freedom = std::max(0, static_cast<int>(std::lround(freedom)));
-  if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);
+  if (result.freedom > 0) result.p = belief::p_of_chi_square(result.chi_square, result.freedom);
   return result;
 }
 

@@ -2,12 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
 
+#include "belief/posterior.hpp"
 #include "held_rows.hpp"
 #include "hold_fit.hpp"
 #include "locate/remaining.hpp"
@@ -161,7 +161,7 @@ class HoldWeighing {
     const bool has_place = rows_.any_place && problem_.pose && std::isfinite(problem_.pose->place_sd);
     // As many numbers were known beforehand: their squares together are a chi-square.
     const int numbers = (problem_.prior ? 1 : 0) + (problem_.pose ? 1 : 0) + (has_place ? 2 : 0);
-    return numbers == 0 ? 1 : boost::math::gamma_q(0.5 * numbers, 0.5 * state.prior_square);
+    return numbers == 0 ? 1 : belief::p_of_chi_square(state.prior_square, numbers);
   }
 
   HoldPlacement posterior_of(const HoldMode& mode, const HeldState& shown, const HoldFit& fit,

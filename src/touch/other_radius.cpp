@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <optional>
 
+#include "belief/posterior.hpp"
 #include "cell_search.hpp"
 #include "centre_path.hpp"
 #include "outline/turn.hpp"
@@ -173,7 +173,7 @@ std::optional<TouchFit> fit_with(const TouchAnswer& answer) {
   TouchFit fit = *answer.fit;
   fit.freedom -= 1;
   if (fit.freedom < 1) return std::nullopt;
-  fit.p = boost::math::gamma_q(0.5 * fit.freedom, 0.5 * fit.chi_square);
+  fit.p = belief::p_of_chi_square(fit.chi_square, fit.freedom);
   return fit.p >= kExplains ? std::optional<TouchFit>(fit) : std::nullopt;
 }
 

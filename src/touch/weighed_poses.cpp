@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "belief/posterior.hpp"
 #include "locate/remaining.hpp"
 #include "outline/turn.hpp"
 #include "posterior.hpp"
@@ -249,7 +249,7 @@ TouchFit fit_of(const Asked& asked, const FittedPose& fitted, bool is_continuum)
   // What is known beforehand is three measurements, or one of the heading.
   if (asked.problem.pose) result.freedom += std::isfinite(asked.problem.pose->place_sd) ? 3 : 1;
   result.freedom = std::max(result.freedom, 0);
-  if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);
+  if (result.freedom > 0) result.p = belief::p_of_chi_square(result.chi_square, result.freedom);
   return result;
 }
 
