@@ -350,32 +350,19 @@ class HoldSolver {
 
   /// The verdict, by what is listed; incomplete wins over everything.
   void conclude() {
-    Verdict& verdict = answer_.verdict;
-    verdict.name = Verdict::inconsistent;
-    verdict.fits_badly = answer_.is_contradicted();
-    const std::vector<HoldPlacement>& placements = answer_.placements;
+    const bool fits_badly = answer_.is_contradicted();
     if (!answer_.unresolved.empty()) {
       answer_.status = Status::incomplete;
-      verdict.name = Verdict::undecided;
+      answer_.verdict = {Verdict::undecided, 0, 0, fits_badly};
       return;
     }
-    if (placements.empty()) return;
-    // With noise those that count by their probability; without, all.
-    verdict.places = how_many_remain(placements, &HoldPlacement::probability);
-    const bool is_sure = verdict.places == 1;
-    verdict.stretches = 0;
-    for (std::size_t k = 0; k < verdict.places; ++k) verdict.stretches += placements[k].continuum ? 1 : 0;
-    // One continuum that goes all the way round some finger's boundary: such a roll does not determine it.
-    const bool is_anywhere =
-        is_sure && std::any_of(placements.front().contacts.begin(), placements.front().contacts.end(),
-                               [&](const HoldContact& contact) { return boundary_.is_full(contact.extent); });
-    if (is_anywhere && verdict.stretches > 0) {
-      verdict = {Verdict::unobservable, 0, 0, verdict.fits_badly};
-    } else if (is_sure && verdict.stretches == 0) {
-      verdict = {Verdict::unique, 0, 0, verdict.fits_badly};
-    } else {
-      verdict.name = Verdict::ambiguous;
-    }
+    // A continuum that goes all the way round some finger's boundary: such a roll does not determine it.
+    const auto is_anywhere = [&](const HoldPlacement& one) {
+      return one.continuum && std::any_of(one.contacts.begin(), one.contacts.end(), [&](const HoldContact& contact) {
+               return boundary_.is_full(contact.extent);
+             });
+    };
+    answer_.verdict = verdict_of(answer_.placements, is_anywhere, fits_badly);
   }
 
   const HoldProblem& problem_;
@@ -442,11 +429,6 @@ HoldAnswer solve(const HoldProblem& problem) {
   return answer;
 }
 
-std::string HoldAnswer::verdict_text() const {
-  Verdict plain = verdict;
-  plain.fits_badly = false;
-  const bool is_said = verdict.fits_badly && verdict.name != Verdict::inconsistent;
-  return plain.text() + (is_said ? ", but the measurements contradict the stated noise" : "");
-}
+std::string HoldAnswer::verdict_text() const { return text_of_verdict(verdict, "measurements"); }
 
 }  // namespace rollfix

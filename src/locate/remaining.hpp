@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "rollfix/locate.hpp"
 
-// Which of several places, poses or parts remain, by their probabilities.
+// Which of several places, poses or parts remain, by their probabilities, and the verdict of that.
 namespace rollfix {
 
 /// What has less than this is not listed ...
@@ -47,6 +49,26 @@ std::size_t how_many_remain(const All& all, const ProbabilityOf& probability_of 
   const double least = least_that_counts(all, probability_of);
   return static_cast<std::size_t>(std::count_if(
       std::begin(all), std::end(all), [&](const auto& each) { return std::invoke(probability_of, each) >= least; }));
+}
+
+/// What is said of all that was found by several contacts, the likeliest first; nothing is left undecided.
+/// `is_anywhere`: asked of the only one that remains, whether it leaves something open all the way round.
+template <class Found, class IsAnywhere>
+Verdict verdict_of(const std::vector<Found>& all, const IsAnywhere& is_anywhere, bool fits_badly) {
+  if (all.empty()) return {Verdict::inconsistent, 0, 0, fits_badly};
+  const std::size_t places = how_many_remain(all, &Found::probability);
+  const auto stretches = static_cast<std::size_t>(std::count_if(
+      all.begin(), all.begin() + static_cast<std::ptrdiff_t>(places), [](const Found& one) { return one.continuum; }));
+  if (places == 1 && is_anywhere(all.front())) return {Verdict::unobservable, 0, 0, fits_badly};
+  if (places == 1 && stretches == 0) return {Verdict::unique, 0, 0, fits_badly};
+  return {Verdict::ambiguous, places, stretches, fits_badly};
+}
+
+/// That verdict in words. Its own text has the contradiction in words of one roll: here it is said of these, "touches".
+inline std::string text_of_verdict(Verdict verdict, const std::string& contacts) {
+  const bool is_said = verdict.fits_badly && verdict.name != Verdict::inconsistent;
+  verdict.fits_badly = false;
+  return verdict.text() + (is_said ? ", but the " + contacts + " contradict the stated noise" : "");
 }
 
 }  // namespace rollfix

@@ -39,7 +39,6 @@ bool are_at_one_place(const AllContacts& contacts) {
 /// or several. With noise `how_many_remain` counts only poses that are probable enough.
 void conclude(TouchAnswer& answer) {
   Verdict& verdict = answer.verdict;
-  const std::vector<TouchPose>& poses = answer.poses;
   verdict.fits_badly |= (answer.fit && answer.fit->is_bad()) || has_many_outliers(answer);
   if (!answer.unresolved.empty()) {
     answer.status = Status::incomplete;
@@ -51,26 +50,9 @@ void conclude(TouchAnswer& answer) {
     verdict.name = Verdict::unobservable;
     return;
   }
-  if (poses.empty()) {
-    verdict.name = Verdict::inconsistent;
-    return;
-  }
-  const std::size_t places = how_many_remain(poses, &TouchPose::probability);
-  const bool is_sure = places == 1;
-  // Continua among the poses that remain.
-  const auto stretches =
-      static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),
-                                             [](const TouchPose& pose) { return pose.continuum; }));
-  // A round part, for example: the place is known, the heading is not.
-  if (is_sure && poses.front().any_heading) {
-    verdict.name = Verdict::unobservable;
-  } else if (is_sure && stretches == 0) {
-    verdict.name = Verdict::unique;
-  } else {
-    verdict.name = Verdict::ambiguous;
-    verdict.places = places;
-    verdict.stretches = stretches;
-  }
+  // Of a round part, for example, the place is known and the heading is not.
+  verdict = verdict_of(
+      answer.poses, [](const TouchPose& pose) { return pose.any_heading; }, verdict.fits_badly);
 }
 
 /// Facts of each roll, and what tells the place: measured centres, only the reference, or nothing.
@@ -269,14 +251,8 @@ TouchAnswer solve(const TouchProblem& problem) {
   return answer;
 }
 
-/// The verdict's own text has the contradiction in words of one roll: here it is said of touches or of measurements.
 std::string TouchAnswer::verdict_text() const {
-  Verdict plain = verdict;
-  plain.fits_badly = false;
-  const bool is_said = verdict.fits_badly && verdict.name != Verdict::inconsistent;
-  const std::string contradiction = rolls.empty() ? ", but the touches contradict the stated noise"
-                                                  : ", but the measurements contradict the stated noise";
-  return plain.text() + (is_said ? contradiction : "");
+  return text_of_verdict(verdict, rolls.empty() ? "touches" : "measurements");
 }
 
 }  // namespace rollfix
