@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "box_search.hpp"
 #include "finger/convex_body.hpp"
