@@ -450,9 +450,7 @@ Report advise_report(const AdviseArguments& arguments) {
       travel, problem.may_overlap, friction);
   add_notes(outcome.answer, report);
   report.exit_code = exit_code_of(outcome.answer);
-  report.data = arguments.json ? json_text(next_roll_json(outcome))
-                : is_first     ? first_roll_text(outcome)
-                               : advise_text(outcome);
+  report.data = arguments.json ? format_next_roll(outcome) : is_first ? first_roll_text(outcome) : advise_text(outcome);
   add_advice_figure(arguments, outcome.advice, outcome.why, outcome.answer.part.name(), outcome.answer.verdict.text(),
                     report);
   return report;

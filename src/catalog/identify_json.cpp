@@ -9,11 +9,6 @@ namespace {
 
 constexpr const char* kSchema = "rollfix/identify/1";
 
-/// As text, on one line or indented.
-std::string formatted(const Json& document, Layout layout) {
-  return layout == Layout::line ? json_line(document) : json_text(document);
-}
-
 /// The catalog's file, how many parts were asked, and how many of them bounds left to be searched.
 Json catalog_json(const Catalog& catalog, std::size_t asked, std::size_t searched) {
   return {{"file", catalog.path()}, {"parts", asked}, {"searched", searched}};

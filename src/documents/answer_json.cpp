@@ -1,99 +1,16 @@
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 
 #include "documents/documents.hpp"
-#include "documents/json_output.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/question.hpp"
-#include "text/text.hpp"
 
 namespace rollfix {
 namespace {
 
-/// The number of a character below U+10000 in UTF-8.
-unsigned code_point(std::string_view character) {
-  constexpr unsigned kLeadBits[] = {0, 0x7F, 0x1F, 0x0F};
-  unsigned code = static_cast<unsigned char>(character.front()) & kLeadBits[character.size()];
-  for (const char c : character.substr(1)) code = code << 6U | (static_cast<unsigned char>(c) & 0x3FU);
-  return code;
-}
-
-/// On one line. File names may hold bytes that are no text; JSON can't. What JSON lets pass and a terminal obeys is
-/// escaped.
-std::string compact(const Json& value) {
-  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string result;
-  result.reserve(text.size());
-  for (std::string_view rest = text; !rest.empty();) {
-    const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_length(rest), 1));
-    is_control(character) ? result += fmt::format("\\u{:04x}", code_point(character)) : result += character;
-    rest.remove_prefix(character.size());
-  }
-  return result;
-}
-
-std::string value_text(const Json& value) {
-  if (!value.is_array() || value.empty() || !value.front().is_object()) return compact(value);
-  std::string text = "[";
-  for (const Json& entry : value) {
-    if (&entry != &value.front()) text += ',';
-    text += "\n    " + compact(entry);
-  }
-  return text + "\n  ]";
-}
-
-}  // namespace
-
-Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json json_interval(const Interval& interval) {
-  return Json::array({json_number(interval.lo), json_number(interval.hi)});
-}
-
-std::string json_line(const Json& document) { return compact(document) + '\n'; }
-
-std::string json_text(const Json& document) {
-  std::string text = "{";
-  bool is_first = true;
-  for (const auto& [key, value] : document.items()) {
-    if (!is_first) text += ',';
-    is_first = false;
-    text += "\n  " + compact(Json(key)) + ": " + value_text(value);
-  }
-  return text + "\n}\n";
-}
-
-// ---- answers of one roll
-
-namespace {
-
-template <class Entries, class ToJson>
-Json list_of(const Entries& entries, const ToJson& to_json) {
-  Json list = Json::array();
-  for (const auto& entry : entries) list.push_back(to_json(entry));
-  return list;
-}
-
-Json pair_json(double one, double two) { return Json::array({json_number(one), json_number(two)}); }
-Json pose_json(const Pose& pose) {
-  return Json::array({json_number(pose.x), json_number(pose.y), json_number(pose.heading)});
-}
-Json intervals_json(const PerFinger<Interval>& intervals) { return list_of(intervals, json_interval); }
+Json intervals_json(const PerFinger<Interval>& intervals) { return json_list(intervals, json_interval); }
 Json places_json(const PerFinger<double>& places) { return json_numbers(places); }
-
-template <class Matrix>
-Json rows_json(const Matrix& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(json_number(matrix(i, j)));
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 /// per_turn[finger][reading], per_length[finger][reading][which finger's length], of two per_facing[finger].
 Json sensitivity_json(const Sensitivity& sensitivity, std::size_t fingers, bool facing) {
@@ -104,9 +21,9 @@ Json sensitivity_json(const Sensitivity& sensitivity, std::size_t fingers, bool 
     for (const auto& lengths : of_finger) any |= std::any_of(lengths.begin(), lengths.end(), is_defined);
   }
   if (!any) return nullptr;
-  Json json = {{"per_turn", list_of(sensitivity.per_turn, json_numbers<ShortList<double>>)},
-               {"per_length", list_of(sensitivity.per_length,
-                                      [](const auto& of_finger) { return list_of(of_finger, places_json); })}};
+  Json json = {{"per_turn", json_list(sensitivity.per_turn, json_numbers<ShortList<double>>)},
+               {"per_length", json_list(sensitivity.per_length,
+                                        [](const auto& of_finger) { return json_list(of_finger, places_json); })}};
   if (fingers == 2) json["per_facing"] = facing ? json_numbers(sensitivity.per_facing) : Json(nullptr);
   return json;
 }
@@ -117,18 +34,18 @@ Json pivot_json(const std::optional<PerFinger<Pivot>>& pivots) {
   const auto one = [](const Pivot& pivot) {
     return Json::array({json_interval(pivot.start), json_interval(pivot.end)});
   };
-  return pivots->size() == 1 ? one((*pivots)[0]) : list_of(*pivots, one);
+  return pivots->size() == 1 ? one((*pivots)[0]) : json_list(*pivots, one);
 }
 
 void add_weight(const Placement& placement, std::size_t fingers, Json& json) {
   json["mean"] = json_numbers(placement.mean);
   json["sd"] = json_numbers(placement.sd);
-  if (fingers == 2) json["covariance"] = rows_json(placement.covariance);
+  if (fingers == 2) json["covariance"] = matrix_json(placement.covariance);
   json["interval"] = intervals_json(placement.interval);
   json["end_mean"] = json_numbers(placement.end_mean);
   json["end_sd"] = json_numbers(placement.end_sd);
   json["pose_mean"] = placement.pose_spread ? pose_json(placement.pose_spread->mean) : Json(nullptr);
-  json["pose_covariance"] = placement.pose_spread ? rows_json(placement.pose_spread->covariance) : Json(nullptr);
+  json["pose_covariance"] = placement.pose_spread ? matrix_json(placement.pose_spread->covariance) : Json(nullptr);
 }
 
 Json obstruction_json(const Obstruction& obstruction) {
@@ -194,7 +111,7 @@ Json fit_json(const Fit& fit) {
 
 void add_weighing(const Weighing& weighing, Json& document) {
   document["noise"] = noise_json(weighing.noise);
-  document["prior"] = weighing.prior ? pair_json(weighing.prior->s, weighing.prior->sd) : Json(nullptr);
+  document["prior"] = prior_json(weighing.prior);
   document["pose_prior"] = pose_prior_json(weighing.pose);
   document["robust"] = weighing.robust;
   document["samples"] = weighing.samples;
@@ -214,10 +131,6 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"noise_scale", json_number(diagnosis.noise_scale)},
           {"excess", json_number(diagnosis.excess)},
           {"log_odds", json_number(diagnosis.log_odds)}};
-}
-
-std::string laid_out(const Json& document, Layout layout) {
-  return layout == Layout::lines ? json_text(document) : json_line(document);
 }
 
 }  // namespace
@@ -244,22 +157,22 @@ Json placement_json(const Placement& placement, const Answer& answer) {
                {"end", json_numbers(placement.end)},
                {"extent", intervals_json(placement.extent)},
                {"whole_loop", placement.whole_loop[0]},
-               {"roots", list_of(placement.roots, places_json)},
+               {"roots", json_list(placement.roots, places_json)},
                {"error", json_number(placement.error)},
-               {"point", list_of(placement.point, point_json)},
+               {"point", json_list(placement.point, point_json)},
                {"tangent", json_numbers(placement.tangent)},
                {"residual", json_number(placement.residual)},
                {"sensitivity", sensitivity_json(placement.sensitivity, fingers, answer.facing.has_value())}};
   if (fingers == 2) {
     json["whole_loop"] = Json::array({placement.whole_loop[0], placement.whole_loop[1]});
-    json["family"] = is_stretch ? list_of(placement.family, places_json) : Json(nullptr);
+    json["family"] = is_stretch ? json_list(placement.family, places_json) : Json(nullptr);
     json["family_error"] = is_stretch ? json_number(placement.family_error) : Json(nullptr);
   }
   if (answer.either_way) json["direction"] = placement.clockwise ? "cw" : "ccw";
   json["pivot"] = pivot_json(placement.pivot);
   json["probability"] = json_number(placement.probability);
   const std::optional<PoseResidual>& off = placement.pose_residual;
-  json["pose"] = off ? list_of(placement.pose, pose_json) : Json(nullptr);
+  json["pose"] = off ? json_list(placement.pose, pose_json) : Json(nullptr);
   json["pose_residual"] =
       off ? Json{{"length", json_number(off->length)}, {"turn", json_number(off->turn)}} : Json(nullptr);
   if (!answer.weighing) json["contradicted"] = placement.is_contradicted;
@@ -267,7 +180,11 @@ Json placement_json(const Placement& placement, const Answer& answer) {
   return json;
 }
 
-Json point_json(const Vec2& point) { return pair_json(point.x(), point.y()); }
+Json point_json(const Vec2& point) { return Json::array({json_number(point.x()), json_number(point.y())}); }
+
+Json pose_json(const Pose& pose) {
+  return Json::array({json_number(pose.x), json_number(pose.y), json_number(pose.heading)});
+}
 
 Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise) {
   if (diagnoses.empty()) return nullptr;
@@ -275,7 +192,7 @@ Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<F
     Json json = diagnosis_json(diagnosis);
     json["cure"] = cure_of(diagnosis, fingers, noise);
     json["verdict"] = diagnosis.modes.empty() ? Json(nullptr) : Json(diagnosis.verdict.text());
-    json["placements"] = list_of(diagnosis.modes, [](const Mode& mode) {
+    json["placements"] = json_list(diagnosis.modes, [](const Mode& mode) {
       return Json{{"start", json_numbers(mode.start)},
                   {"sd", json_numbers(mode.sd)},
                   {"interval", intervals_json(mode.interval)},
@@ -293,6 +210,10 @@ Json noise_json(const Noise& noise) {
   Json json = Json::object();
   for (const NoiseKind& kind : kNoiseKinds) json[kind.name] = json_number(noise.*kind.sd);
   return json;
+}
+
+Json prior_json(const std::optional<Prior>& prior) {
+  return prior ? Json::array({json_number(prior->s), json_number(prior->sd)}) : Json(nullptr);
 }
 
 Json pose_prior_json(const std::optional<PosePrior>& prior) {
@@ -345,37 +266,22 @@ Json answer_json(const Answer& answer, bool explain) {
   if (fingers == 2) document["facing"] = answer.facing ? json_number(*answer.facing) : Json(nullptr);
   document["tolerance"] = json_number(answer.tolerance.value);
   document["placements"] =
-      list_of(answer.placements, [&](const Placement& placement) { return placement_json(placement, answer); });
+      json_list(answer.placements, [&](const Placement& placement) { return placement_json(placement, answer); });
   document["pose_time"] = answer.pose_time.empty() ? Json(nullptr) : json_numbers(answer.pose_time);
   document["dropped"] = dropped_json(answer);
   if (answer.weighing) document["stray_lines"] = answer.strays;
-  document["unresolved"] = list_of(answer.unresolved, open);
+  document["unresolved"] = json_list(answer.unresolved, open);
   document["counts"] = {{fingers == 1 ? "intervals" : "boxes", answer.counts.intervals},
                         {"evaluations", answer.counts.evaluations}};
   if (answer.weighing) add_weighing(*answer.weighing, document);
   document["diagnosis"] =
       diagnoses_json(answer.diagnoses, answer.fingers, answer.weighing ? answer.weighing->noise : Noise{});
-  if (explain) document["impossible"] = list_of(answer.impossible, impossible_json);
+  if (explain) document["impossible"] = json_list(answer.impossible, impossible_json);
   return document;
 }
 
 std::string format_answer(const Answer& answer, Layout layout, bool explain) {
-  return laid_out(answer_json(answer, explain), layout);
-}
-
-std::string format_inspection(const Inspection& inspection, const LoadedPart& loaded, Layout layout) {
-  Json document = inspection_json(inspection);
-  document["loops"] = loops_json(loaded);
-  return laid_out(document, layout);
-}
-
-std::string format_next_roll(const NextRoll& next, Layout layout) { return laid_out(next_roll_json(next), layout); }
-
-std::string format_taught(const Inspection& inspection, const Taught& taught, Layout layout) {
-  Json document = inspection_json(inspection);
-  document["schema"] = "rollfix/teach/1";
-  document["taught"] = taught_json(taught);
-  return laid_out(document, layout);
+  return formatted(answer_json(answer, explain), layout);
 }
 
 std::string format_solution(const Solution& solution, Layout layout, bool explain) {

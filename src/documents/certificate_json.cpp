@@ -94,9 +94,7 @@ Json outline_json(const char* schema, const CertifiedOutline& outline) {
           {"curves", curves_json(outline.curves)}};
 }
 
-Json intervals_json(const std::vector<Interval>& intervals) {
-  return json_list(intervals, [](const Interval& one) { return json_numbers(std::array{one.lo, one.hi}); });
-}
+Json intervals_json(const std::vector<Interval>& intervals) { return json_list(intervals, json_interval); }
 
 Json touches_json(const TouchCertificate& certificate) {
   Json list = Json::array();
@@ -147,7 +145,7 @@ Json held_finger_json(const CertifiedFinger& finger) {
                 {{"travel", json_number(finger.travel)},
                  {"angle", json_number(finger.angle)},
                  {"place", number_if_any(finger.place)}}},
-               {"passed", json_numbers(std::array{finger.passed.lo, finger.passed.hi})},
+               {"passed", json_interval(finger.passed)},
                {"reach", reach_json(finger.reach)}};
   if (finger.radius > 0) json["radius"] = json_number(finger.radius);
   return json;
@@ -181,26 +179,23 @@ Json lie_json(const CertifiedLie& lie) {
     pins.push_back(
         {{"at", place_json(wheel.at)}, {"tangent", json_number(wheel.tangent)}, {"off", json_numbers(wheel.off)}});
   }
-  const Pose& pose = lie.pose;
-  return {{"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})}, {"contacts", contacts}, {"pins", pins}};
+  return {{"pose", pose_json(lie.pose)}, {"contacts", contacts}, {"pins", pins}};
 }
 
 Json held_set_json(const CertifiedHoldSet& set) {
   Json json = {{"listed", set.listed}, {"extent", intervals_json(set.extent)}};
   if (set.first.empty()) return json;
-  Json first = Json::array(), lies = Json::array();
+  Json first = Json::array();
   for (std::size_t k = 0; k < set.first.size(); ++k) {
     first.push_back({{"at", place_json(set.at[k])}, {"s", json_number(set.first[k])}});
   }
-  for (const CertifiedLie& lie : set.lies) lies.push_back(lie_json(lie));
   json["first"] = first;
   json["zeros"] = json_numbers(set.zeros);
-  json["instants"] = lies;
+  json["instants"] = json_list(set.lies, lie_json);
   return json;
 }
 
 Json certified_pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tolerance) {
-  const Pose& pose = one.pose.pose;
   Json contacts = Json::array();
   for (std::size_t k = 0; k < one.at.size(); ++k) {
     const TouchContact& contact = one.pose.contacts[k];
@@ -212,7 +207,7 @@ Json certified_pose_json(const CertifiedPose& one, const std::vector<TouchTolera
                         {"off", json_numbers(off)}});
   }
   Json json = {{"listed", one.listed}};
-  if (!one.at.empty()) json["pose"] = json_numbers(std::array{pose.x, pose.y, pose.heading});
+  if (!one.at.empty()) json["pose"] = pose_json(one.pose.pose);
   if (one.is_own) json["extent"] = intervals_json({one.pose.extent.begin(), one.pose.extent.end()});
   if (!one.at.empty()) json["contacts"] = contacts;
   return json;
@@ -248,9 +243,8 @@ std::string format_certificate(const TouchCertificate& certificate) {
   if (!certificate.rolls.empty()) json["rolls"] = rolls_json(certificate);
   json["touches"] = touches_json(certificate);
   json["reach"] = reach_json(certificate.reach);
-  json["poses"] = Json::array();
-  for (const CertifiedPose& one : certificate.poses)
-    json["poses"].push_back(certified_pose_json(one, certificate.tolerance));
+  json["poses"] = json_list(certificate.poses,
+                            [&](const CertifiedPose& one) { return certified_pose_json(one, certificate.tolerance); });
   if (!certificate.is_complete()) {
     json["unresolved"] = {{"touch", certificate.unresolved_touch}, {"arcs", intervals_json(certificate.unresolved)}};
   }

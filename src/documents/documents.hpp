@@ -6,6 +6,7 @@
 
 #include "documents/json_output.hpp"
 #include "rollfix/advise.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/inspect.hpp"
 #include "rollfix/part.hpp"
@@ -23,6 +24,18 @@ Json json_list(const Entries& entries, const ToJson& to_json) {
   return list;
 }
 
+/// A list of rows.
+template <class Matrix>
+Json matrix_json(const Matrix& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(json_numbers(matrix.row(i)));
+  return rows;
+}
+
+inline std::string formatted(const Json& document, Layout layout) {
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
 /// "rollfix/locate/1". `explain`: with what the fingers can't do.
 Json answer_json(const Answer& answer, bool explain);
 
@@ -31,8 +44,6 @@ Json inspection_json(const Inspection& inspection);
 /// Its field `loops`: all that a drawing holds.
 Json loops_json(const LoadedPart& loaded);
 
-/// "rollfix/advise/1".
-Json next_roll_json(const NextRoll& next);
 /// A number of one finger, a list of two.
 Json per_finger_json(const PerFinger<double>& values);
 /// Of one part or of several: `of` says which.
@@ -65,12 +76,14 @@ Json pose_sets_json(const TouchAnswer& answer);
 Json touches_json(const std::vector<MeasuredTouch>& touches, const std::vector<TouchTolerance>& tolerance);
 Json clear_json(const std::vector<Clear>& paths);
 Json point_json(const Vec2& point);
+Json pose_json(const Pose& pose);  // [x, y, heading]
 Json part_json(const Part& part);
 /// Null where the rows fit. `fingers` and `noise` as given, for the cure.
 Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise);
 Json noise_json(const Noise& noise);
-Json pose_prior_json(
-    const std::optional<PosePrior>& prior);    // null without; x and y are where only the heading is known
+Json prior_json(const std::optional<Prior>& prior);  // [s, sd], null without
+/// Null without; x and y are null where only the heading is known.
+Json pose_prior_json(const std::optional<PosePrior>& prior);
 Json accuracy_json(const Accuracy& accuracy);  // null where it is exact
 
 /// The boundary as samples_of gives it, as CSV with a line of titles: s,x,y,tangent,curvature, lengths with the part's

@@ -50,20 +50,18 @@ Json ambiguity_json(const Inspection& inspection) {
 Json pivots_json(const Reach& reach) {
   Json list = Json::array();
   for (const PivotReach& pivot : reach.pivots) {
-    Json angles = Json::array();
-    for (const Interval& interval : pivot.angles) angles.push_back(json_interval(interval));
-    list.push_back({{"s", json_number(pivot.s)}, {"whole", json_interval(pivot.whole)}, {"angles", angles}});
+    list.push_back({{"s", json_number(pivot.s)},
+                    {"whole", json_interval(pivot.whole)},
+                    {"angles", json_list(pivot.angles, json_interval)}});
   }
   return list;
 }
 
 Json reach_json(const Inspection& inspection) {
   if (!inspection.reach) return nullptr;
-  Json arcs = Json::array();
-  for (const Interval& arc : inspection.reach->arcs) arcs.push_back(json_interval(arc));
   return {{"finger", name_of(*inspection.finger)},
           {"share", json_number(inspection.reach->share())},
-          {"arcs", arcs},
+          {"arcs", json_list(inspection.reach->arcs, json_interval)},
           {"pivots", pivots_json(*inspection.reach)},
           {"slack", json_number(inspection.reach->slack)},
           {"decided", inspection.reach->decided}};
@@ -93,9 +91,8 @@ Json outline_json(const Part& part) {
   Json lists = Json::object();
   const std::vector<BoundarySample> samples = samples_of(part);
   for (const FactColumn& column : kColumns) {
-    Json list = Json::array();
-    for (const BoundarySample& sample : samples) list.push_back(json_number(column.value(sample)));
-    lists[column.name] = std::move(list);
+    lists[column.name] =
+        json_list(samples, [&](const BoundarySample& sample) { return json_number(column.value(sample)); });
   }
   return lists;
 }
@@ -174,6 +171,19 @@ Json taught_json(const Taught& taught) {
           {"correction", taught.correction},
           {"deviation", taught.deviation},
           {"row_sd", taught.row_sd}};
+}
+
+std::string format_inspection(const Inspection& inspection, const LoadedPart& loaded, Layout layout) {
+  Json document = inspection_json(inspection);
+  document["loops"] = loops_json(loaded);
+  return formatted(document, layout);
+}
+
+std::string format_taught(const Inspection& inspection, const Taught& taught, Layout layout) {
+  Json document = inspection_json(inspection);
+  document["schema"] = "rollfix/teach/1";
+  document["taught"] = taught_json(taught);
+  return formatted(document, layout);
 }
 
 }  // namespace rollfix

@@ -1,18 +1,9 @@
-#include <array>
-
 #include "documents/documents.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/plan.hpp"
 
 namespace rollfix {
 namespace {
-
-template <class Entry>
-Json planned_each(std::size_t fingers, const Entry& entry) {
-  Json list = Json::array();
-  for (std::size_t which = 0; which < fingers; ++which) list.push_back(entry(which));
-  return list;
-}
 
 const char* name_of_path(PlanPath path) {
   switch (path) {
@@ -33,14 +24,13 @@ Json margin_json(const PlanMargin& margin) {
           {"allowed", json_number(margin.allowed)},
           {"time", json_number(margin.time)},
           {"row", margin.row},
-          {"contacts", planned_each(margin.place.size(), [&](std::size_t k) { return json_number(margin.place[k]); })},
+          {"contacts", json_numbers(margin.place)},
           {"fails", margin.fails},
           {"proved", margin.proved}};
 }
 
 Json pose_of_plan(const Plan& plan, const PlanProblem& problem, bool last) {
-  const Pose& pose = plan.roll.pose.empty() ? problem.pose : last ? plan.roll.pose.back() : plan.roll.pose.front();
-  return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading});
+  return pose_json(plan.roll.pose.empty() ? problem.pose : last ? plan.roll.pose.back() : plan.roll.pose.front());
 }
 
 }  // namespace
@@ -76,7 +66,7 @@ Json advice_json(const std::string& verdict, const Json& of, const std::optional
   return document;
 }
 
-Json next_roll_json(const NextRoll& next) {
+std::string format_next_roll(const NextRoll& next, Layout layout) {
   Json hypotheses = Json::array();
   for (const Hypothesis& hypothesis : next.hypotheses) {
     hypotheses.push_back({{"placement", hypothesis.label},
@@ -85,8 +75,9 @@ Json next_roll_json(const NextRoll& next) {
                           {"probability", json_number(hypothesis.probability)},
                           {"turn", next.helps() ? json_number(next.turn_ahead(hypothesis)) : Json(nullptr)}});
   }
-  return advice_json(next.answer.verdict.text(), {{"part", part_json(next.answer.part)}}, next.advice, next.why,
-                     hypotheses);
+  const Json document = advice_json(next.answer.verdict.text(), {{"part", part_json(next.answer.part)}}, next.advice,
+                                    next.why, hypotheses);
+  return formatted(document, layout);
 }
 
 std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout layout) {
@@ -102,13 +93,12 @@ std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout 
   Json document = advice_json(held.verdict_text(), {{"part", part_json(held.part)}}, next.advice, next.why, hypotheses);
   document["pin"] = document["length"];
   document["length"] = nullptr;
-  return layout == Layout::lines ? json_text(document) : json_line(document);
+  return formatted(document, layout);
 }
 
 std::string format_plan_document(const Plan& plan, const PlanProblem& problem, Layout layout) {
   const std::size_t fingers = plan.length.size();
-  const auto rows_of = [&](std::size_t which) -> const FingerRows& { return plan.roll.log.fingers[which]; };
-  Json document = {
+  const Json document = {
       {"schema", "rollfix/plan/1"},
       {"status", plan.decided || plan.failure ? "complete" : "incomplete"},
       {"verdict", verdict_text(plan, problem)},
@@ -118,17 +108,15 @@ std::string format_plan_document(const Plan& plan, const PlanProblem& problem, L
       {"path", name_of_path(plan.path)},
       {"press", fingers == 1 ? Json(nullptr) : Json(plan.expanding ? "apart" : "together")},
       {"duration", json_number(plan.duration)},
-      {"start", planned_each(fingers, [&](std::size_t k) { return json_number(plan.roll.s[k].front()); })},
-      {"length", planned_each(fingers, [&](std::size_t k) { return json_number(plan.length[k]); })},
-      {"rotation",
-       planned_each(fingers,
-                    [&](std::size_t k) { return json_number(rows_of(k).psi.back() - rows_of(k).psi.front()); })},
-      {"friction_needed", planned_each(fingers, [&](std::size_t k) { return json_number(plan.friction_needed[k]); })},
+      {"start", json_list(plan.roll.s, [](const std::vector<double>& s) { return json_number(s.front()); })},
+      {"length", json_numbers(plan.length)},
+      {"rotation", json_list(plan.roll.log.fingers,
+                             [](const FingerRows& rows) { return json_number(rows.psi.back() - rows.psi.front()); })},
+      {"friction_needed", json_numbers(plan.friction_needed)},
       {"pose", Json::array({pose_of_plan(plan, problem, false), pose_of_plan(plan, problem, true)})},
-      {"margins", Json::array()},
+      {"margins", json_list(plan.margins, margin_json)},
       {"unchecked", plan.unchecked}};
-  for (const PlanMargin& margin : plan.margins) document["margins"].push_back(margin_json(margin));
-  return layout == Layout::lines ? json_text(document) : json_line(document);
+  return formatted(document, layout);
 }
 
 }  // namespace rollfix

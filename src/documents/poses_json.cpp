@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "documents/documents.hpp"
 #include "outline/turn.hpp"
@@ -10,23 +11,23 @@
 namespace rollfix {
 namespace {
 
+const char* name_of(PlaceKnown place) {
+  constexpr std::array<const char*, 3> kNames = {"measured", "reference", "unknown"};
+  return kNames[static_cast<std::size_t>(place)];
+}
+
 /// x and y are null where nothing tells them.
 Json held_pose(const Pose& pose, PlaceKnown place) {
   if (place == PlaceKnown::unknown) return Json::array({nullptr, nullptr, json_number(pose.heading)});
-  return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading});
+  return pose_json(pose);
 }
 
+/// Null but for the heading's variance, unless the place was measured.
 Json covariance_json(const Eigen::Matrix3d& covariance, PlaceKnown place) {
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) {
-    Json row = Json::array();
-    for (int j = 0; j < 3; ++j) {
-      const bool is_known = place == PlaceKnown::measured || (i == 2 && j == 2);
-      row.push_back(is_known ? json_number(covariance(i, j)) : Json(nullptr));
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
+  if (place == PlaceKnown::measured) return matrix_json(covariance);
+  Eigen::Matrix3d known = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  known(2, 2) = covariance(2, 2);
+  return matrix_json(known);
 }
 
 Json held_json(const HoldPlacement& one, const HoldAnswer& answer) {
@@ -102,9 +103,6 @@ Json held_roll_json(const HoldRoll& roll) {
 }  // namespace
 
 std::string format_hold(const HoldAnswer& answer, Layout layout) {
-  const char* const place = answer.place == PlaceKnown::measured    ? "measured"
-                            : answer.place == PlaceKnown::reference ? "reference"
-                                                                    : "unknown";
   Json document = {{"schema", "rollfix/locate/1"},
                    {"status", name_of(answer.status)},
                    {"verdict", answer.verdict_text()},
@@ -114,7 +112,7 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
                    {"rolls", json_list(answer.rolls, held_roll_json)},
                    {"rows", answer.rows},
                    {"instants", json_numbers(answer.instants)},
-                   {"place", place}};
+                   {"place", name_of(answer.place)}};
   document["placements"] =
       json_list(answer.placements, [&](const HoldPlacement& one) { return held_json(one, answer); });
   document["dropped"] = {{"overlap", answer.overlap}};
@@ -122,8 +120,7 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
   document["robust"] = answer.robust;
   document["stray"] = answer.strays;
   document["left_out"] = answer.jumps;
-  document["prior"] =
-      answer.prior ? json_numbers(std::array<double, 2>{answer.prior->s, answer.prior->sd}) : Json(nullptr);
+  document["prior"] = prior_json(answer.prior);
   document["pose_prior"] =
       answer.pose
           ? json_numbers(std::array<double, 5>{answer.pose->mean.x, answer.pose->mean.y, answer.pose->mean.heading,
@@ -146,23 +143,14 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
   }
   document["squeezed"] = answer.squeezed ? json_number(*answer.squeezed) : Json(nullptr);
   document["fit"] = answer.fit ? fit_json(*answer.fit) : Json(nullptr);
-  return layout == Layout::lines ? json_text(document) : json_line(document);
+  return formatted(document, layout);
 }
 
 // ---- touches and rolls of a part at rest
 
 namespace {
 
-template <class Entries, class ToJson>
-Json each_of(const Entries& entries, const ToJson& to_json) {
-  Json list = Json::array();
-  for (const auto& entry : entries) list.push_back(to_json(entry));
-  return list;
-}
-
 Json number_or_null(const std::optional<double>& value) { return value ? json_number(*value) : Json(nullptr); }
-
-Json triple(const Pose& pose) { return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading}); }
 
 Json measured_json(const MeasuredTouch& touch, const TouchTolerance& tolerance) {
   return {{"at", touch.has_place() ? point_json(touch.at) : Json(nullptr)},
@@ -173,23 +161,19 @@ Json measured_json(const MeasuredTouch& touch, const TouchTolerance& tolerance) 
                                      touch.normal ? json_number(tolerance.angle) : Json(nullptr)})}};
 }
 
-Json fit_of_touches(const TouchFit& fit) {
-  return {{"chi_square", json_number(fit.chi_square)}, {"freedom", fit.freedom}, {"p", json_number(fit.p)}};
-}
-
 Json slide_json(const std::optional<Slide>& slide) {
   if (!slide) return nullptr;
   return {{"direction", json_number(slide->direction)}, {"length", json_number(slide->length)}};
 }
 
 Json pose_set_json(const TouchAnswer& answer, const TouchPose& set) {
-  const auto numbers = [&](auto value) { return each_of(set.contacts, value); };
+  const auto numbers = [&](auto value) { return json_list(set.contacts, value); };
   Json json = {
       {"kind", set.continuum ? "continuum" : "place"},
-      {"pose", Json::array({triple(set.pose)})},
+      {"pose", Json::array({pose_json(set.pose)})},
       {"any_heading", set.any_heading},
       {"slide", slide_json(slide_of(answer, set))},
-      {"pose_extent", each_of(set.extent, json_interval)},
+      {"pose_extent", json_list(set.extent, json_interval)},
       {"start", numbers([](const TouchContact& contact) { return json_number(contact.s); })},
       {"point", numbers([](const TouchContact& contact) { return point_json(contact.point); })},
       {"tangent", numbers([](const TouchContact& contact) { return json_number(contact.tangent); })},
@@ -206,21 +190,17 @@ Json pose_set_json(const TouchAnswer& answer, const TouchPose& set) {
   if (answer.robust && !answer.touches.empty()) json["outliers"] = set.outliers;
   if (!answer.noise) return json;
   json["chi_square"] = json_number(set.chi_square);
-  json["pose_mean"] = triple(set.spread.mean);
-  json["pose_covariance"] = Json::array();
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d row = set.spread.covariance.row(i).transpose();
-    json["pose_covariance"].push_back(json_numbers(std::array<double, 3>{row(0), row(1), row(2)}));
-  }
-  json["pose_interval"] = each_of(set.interval, json_interval);
+  json["pose_mean"] = pose_json(set.spread.mean);
+  json["pose_covariance"] = matrix_json(set.spread.covariance);
+  json["pose_interval"] = json_list(set.interval, json_interval);
   return json;
 }
 
 Json mistake_json(const TouchDiagnosis& diagnosis) {
   Json json = {{"cause", name_of(diagnosis.cause)},
                {"places", diagnosis.poses},
-               {"pose", triple(diagnosis.pose)},
-               {"fit", fit_of_touches(diagnosis.fit)}};
+               {"pose", pose_json(diagnosis.pose)},
+               {"fit", fit_json(diagnosis.fit)}};
   if (diagnosis.cause == TouchCause::unit || diagnosis.cause == TouchCause::noise) json["factor"] = diagnosis.factor;
   if (diagnosis.cause == TouchCause::unit) json["unit"] = diagnosis.unit;
   if (diagnosis.cause == TouchCause::outlier) json["touch"] = diagnosis.touch;
@@ -241,11 +221,6 @@ Json roll_json(const RollFacts& roll, const TouchTolerance& tolerance, bool plac
            Json::array({place_counts ? json_number(tolerance.length) : Json(nullptr), json_number(tolerance.angle)})}};
 }
 
-const char* name_of(PlaceKnown place) {
-  constexpr std::array<const char*, 3> kNames = {"measured", "reference", "unknown"};
-  return kNames[static_cast<std::size_t>(place)];
-}
-
 void add_rolls(const TouchAnswer& answer, Json& document) {
   if (answer.rolls.empty()) return;
   document["place"] = name_of(answer.place);
@@ -262,7 +237,7 @@ void add_rolls(const TouchAnswer& answer, Json& document) {
 }  // namespace
 
 Json pose_sets_json(const TouchAnswer& answer) {
-  return each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(answer, set); });
+  return json_list(answer.poses, [&](const TouchPose& set) { return pose_set_json(answer, set); });
 }
 
 Json touches_json(const std::vector<MeasuredTouch>& touches, const std::vector<TouchTolerance>& tolerance) {
@@ -272,7 +247,9 @@ Json touches_json(const std::vector<MeasuredTouch>& touches, const std::vector<T
 }
 
 Json clear_json(const std::vector<Clear>& paths) {
-  return each_of(paths, [](const Clear& path) { return Json{path.from.x(), path.from.y(), path.to.x(), path.to.y()}; });
+  return json_list(paths, [](const Clear& path) {
+    return Json{path.from.x(), path.from.y(), path.to.x(), path.to.y()};
+  });
 }
 
 std::string format_touches(const TouchAnswer& answer, Layout layout) {
@@ -293,7 +270,7 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
   document["clear"] = clear_json(answer.clear);
   document["placements"] = pose_sets_json(answer);
   document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
-  document["unresolved"] = each_of(answer.unresolved, json_interval);
+  document["unresolved"] = json_list(answer.unresolved, json_interval);
   document["unresolved_touch"] = answer.unresolved.empty() ? Json(nullptr) : Json(answer.unresolved_touch);
   document["counts"] = {{"comparisons", answer.comparisons}};
   document["noise"] = answer.noise ? noise_json(*answer.noise) : Json(nullptr);
@@ -302,9 +279,9 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
     document["outlier"] = json_numbers(answer.outlier);
     document["anywhere"] = json_number(answer.anywhere);
   }
-  document["fit"] = answer.fit ? fit_of_touches(*answer.fit) : Json(nullptr);
-  document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : each_of(answer.diagnoses, mistake_json);
-  return layout == Layout::lines ? json_text(document) : json_line(document);
+  document["fit"] = answer.fit ? fit_json(*answer.fit) : Json(nullptr);
+  document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : json_list(answer.diagnoses, mistake_json);
+  return formatted(document, layout);
 }
 
 std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, Layout layout) {
@@ -330,19 +307,19 @@ std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, 
   if (next.roll) {
     document["roll"] = {{"length", json_number(next.roll->length)}, {"bits", json_number(next.roll->bits)}};
   }
-  document["contenders"] = each_of(next.expected, [](const ExpectedTouch& one) {
+  document["contenders"] = json_list(next.expected, [](const ExpectedTouch& one) {
     return Json{{"placement", one.placement},
                 {"probability", json_number(one.probability)},
-                {"pose", triple(one.pose)},
+                {"pose", pose_json(one.pose)},
                 {"at", one.hits ? Json{one.at.x(), one.at.y()} : Json(nullptr)},
                 {"normal", one.hits ? json_number(one.normal) : Json(nullptr)},
                 {"travel", one.hits ? json_number(one.travel) : Json(nullptr)}};
   });
-  document["prospects"] = each_of(next.gains, [](const TouchGain& one) {
+  document["prospects"] = json_list(next.gains, [](const TouchGain& one) {
     return Json{one.approach.from.x(), one.approach.from.y(), one.approach.direction, json_number(one.poses),
                 json_number(one.bits)};
   });
-  return layout == Layout::lines ? json_text(document) : json_line(document);
+  return formatted(document, layout);
 }
 
 }  // namespace rollfix
