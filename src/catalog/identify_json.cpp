@@ -1,3 +1,5 @@
+#include "identify_json.hpp"
+
 #include <utility>
 
 #include "documents/documents.hpp"
@@ -20,9 +22,7 @@ Json catalog_json(const Catalog& catalog, const Identified& found) {
 
 /// Names of parts, given by their places in the catalog.
 Json names_json(const Catalog& catalog, const std::vector<std::size_t>& parts) {
-  Json names = Json::array();
-  for (const std::size_t part : parts) names.push_back(catalog.entry(part).name);
-  return names;
+  return json_list(parts, [&](std::size_t part) { return catalog.entry(part).name; });
 }
 
 /// Parts that can't have been rolled on so, each with its reason.
@@ -48,29 +48,28 @@ Json part_json(const Catalog& catalog, std::size_t part, double probability, con
 
 /// Of a roll: its placements, as the documents of `locate` have them.
 Json part_json(const Catalog& catalog, const PartFound& part) {
-  Json placements = Json::array();
-  for (const Placement& placement : part.answer.placements)
-    placements.push_back(placement_json(placement, part.answer));
   return part_json(catalog, part.weight.part, part.probability, part.weight.verdict, part.congruent,
-                   std::move(placements));
+                   json_list(part.answer.placements,
+                             [&](const Placement& placement) { return placement_json(placement, part.answer); }));
 }
 
 }  // namespace
 
+Json identified_document(const Catalog& catalog, const Identified& found) {
+  return {{"schema", kSchema},
+          {"status", name_of(found.status)},
+          {"verdict", found.verdict},
+          {"catalog", catalog_json(catalog, found)},
+          {"noise", found.noise ? noise_json(*found.noise) : Json(nullptr)},
+          {"mirrored", found.mirrored},
+          {"samples", found.samples},
+          {"parts", json_list(found.parts, [&](const PartFound& part) { return part_json(catalog, part); })},
+          {"rest", found.noise ? json_number(found.rest) : Json(nullptr)},
+          {"refused", refused_json(catalog, found.refused)}};
+}
+
 std::string format_identified(const Catalog& catalog, const Identified& found, Layout layout) {
-  Json parts = Json::array();
-  for (const PartFound& part : found.parts) parts.push_back(part_json(catalog, part));
-  const Json document = {{"schema", kSchema},
-                         {"status", name_of(found.status)},
-                         {"verdict", found.verdict},
-                         {"catalog", catalog_json(catalog, found)},
-                         {"noise", found.noise ? noise_json(*found.noise) : Json(nullptr)},
-                         {"mirrored", found.mirrored},
-                         {"samples", found.samples},
-                         {"parts", parts},
-                         {"rest", found.noise ? json_number(found.rest) : Json(nullptr)},
-                         {"refused", refused_json(catalog, found.refused)}};
-  return formatted(document, layout);
+  return formatted(identified_document(catalog, found), layout);
 }
 
 std::string format_identified(const Catalog& catalog, const IdentifiedByTouches& found, Layout layout) {

@@ -246,7 +246,7 @@ Json part_json(const Part& part) {
           {"unit", part.unit().empty() ? Json(nullptr) : Json(part.unit())}};
 }
 
-Json answer_json(const Answer& answer, bool explain) {
+Json answer_document(const Answer& answer, bool explain) {
   const std::size_t fingers = answer.finger_count();
   // One finger's open intervals are listed as such, two fingers' as boxes.
   const auto open = [&](const PerFinger<Interval>& box) {
@@ -280,14 +280,18 @@ Json answer_json(const Answer& answer, bool explain) {
   return document;
 }
 
+Json solution_document(const Solution& solution, bool explain) {
+  if (solution.at_rest() != nullptr) return touches_document(*solution.at_rest());
+  if (solution.moving() != nullptr) return hold_document(*solution.moving());
+  return answer_document(*solution.roll(), explain);
+}
+
 std::string format_answer(const Answer& answer, Layout layout, bool explain) {
-  return formatted(answer_json(answer, explain), layout);
+  return formatted(answer_document(answer, explain), layout);
 }
 
 std::string format_solution(const Solution& solution, Layout layout, bool explain) {
-  if (solution.at_rest() != nullptr) return format_touches(*solution.at_rest(), layout);
-  if (solution.moving() != nullptr) return format_hold(*solution.moving(), layout);
-  return format_answer(*solution.roll(), layout, explain);
+  return formatted(solution_document(solution, explain), layout);
 }
 
 }  // namespace rollfix

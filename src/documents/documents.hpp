@@ -37,7 +37,13 @@ inline std::string formatted(const Json& document, Layout layout) {
 }
 
 /// "rollfix/locate/1". `explain`: with what the fingers can't do.
-Json answer_json(const Answer& answer, bool explain);
+Json answer_document(const Answer& answer, bool explain);
+Json touches_document(const TouchAnswer& answer);
+Json hold_document(const HoldAnswer& answer);
+Json solution_document(const Solution& solution, bool explain);
+
+/// "rollfix/advise/1" of touches.
+Json next_touch_document(const TouchAnswer& answer, const NextTouch& next);
 
 /// "rollfix/inspect/1" of a part that was not drawn: without loops.
 Json inspection_json(const Inspection& inspection);

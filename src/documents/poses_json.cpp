@@ -102,7 +102,7 @@ Json held_roll_json(const HoldRoll& roll) {
 
 }  // namespace
 
-std::string format_hold(const HoldAnswer& answer, Layout layout) {
+Json hold_document(const HoldAnswer& answer) {
   Json document = {{"schema", "rollfix/locate/1"},
                    {"status", name_of(answer.status)},
                    {"verdict", answer.verdict_text()},
@@ -143,8 +143,10 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
   }
   document["squeezed"] = answer.squeezed ? json_number(*answer.squeezed) : Json(nullptr);
   document["fit"] = answer.fit ? fit_json(*answer.fit) : Json(nullptr);
-  return formatted(document, layout);
+  return document;
 }
+
+std::string format_hold(const HoldAnswer& answer, Layout layout) { return formatted(hold_document(answer), layout); }
 
 // ---- touches and rolls of a part at rest
 
@@ -252,7 +254,7 @@ Json clear_json(const std::vector<Clear>& paths) {
   });
 }
 
-std::string format_touches(const TouchAnswer& answer, Layout layout) {
+Json touches_document(const TouchAnswer& answer) {
   Json document = {{"schema", "rollfix/locate/1"},
                    {"status", name_of(answer.status)},
                    {"verdict", answer.verdict_text()},
@@ -281,10 +283,14 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
   }
   document["fit"] = answer.fit ? fit_json(*answer.fit) : Json(nullptr);
   document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : json_list(answer.diagnoses, mistake_json);
-  return formatted(document, layout);
+  return document;
 }
 
-std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, Layout layout) {
+std::string format_touches(const TouchAnswer& answer, Layout layout) {
+  return formatted(touches_document(answer), layout);
+}
+
+Json next_touch_document(const TouchAnswer& answer, const NextTouch& next) {
   Json document = {{"schema", "rollfix/advise/1"},
                    {"verdict", answer.verdict_text()},
                    {"part", part_json(answer.part)},
@@ -319,7 +325,11 @@ std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, 
     return Json{one.approach.from.x(), one.approach.from.y(), one.approach.direction, json_number(one.poses),
                 json_number(one.bits)};
   });
-  return formatted(document, layout);
+  return document;
+}
+
+std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, Layout layout) {
+  return formatted(next_touch_document(answer, next), layout);
 }
 
 }  // namespace rollfix

@@ -266,7 +266,7 @@ std::vector<Outcome> outcomes_of(const std::vector<BatchLine>& lines) {
 Json document_of(const BatchLine& line, const Outcome& outcome, bool explain) {
   Json document;
   if (outcome.solution) {
-    document = Json::parse(format_solution(*outcome.solution, Layout::line, explain));
+    document = solution_document(*outcome.solution, explain);
   } else {
     const std::string error =
         line.question ? fmt::format("{}: {}", line.where, with_options(outcome.error)) : line.error;

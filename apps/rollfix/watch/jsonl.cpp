@@ -4,10 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "documents/json_output.hpp"
-#include "rollfix/files.hpp"
+#include "catalog/identify_json.hpp"
+#include "documents/documents.hpp"
 #include "rollfix/identify.hpp"
-#include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"
 
 namespace rollfix::app {
@@ -19,41 +18,26 @@ constexpr const char* kSchema = "rollfix/watch/1";
 constexpr std::array kWhyOver = {"lost", "jump", "restarted", "ended", "elsewhere"};
 constexpr std::array kWhyEnd = {"stream", "signal", "idle"};
 
-/// As in locate's JSON: one entry per finger.
-template <class T, class MakeJson>
-Json each_finger(const PerFinger<T>& entries, const MakeJson& json) {
-  Json all = Json::array();
-  for (const T& entry : entries) all.push_back(json(entry));
-  return all;
-}
-
 Json mode_json(const Mode& mode, const Part& part) {
-  const auto point = [&](double s) {
-    const Vec2 at = part.point(s);
-    return Json::array({json_number(at.x()), json_number(at.y())});
-  };
+  const auto point = [&](double s) { return point_json(part.point(s)); };
   const auto direction = [](double angle) { return json_number(std::remainder(angle, 2 * std::numbers::pi)); };
   Json json = {{"start", json_numbers(mode.start)},
                {"end", json_numbers(mode.end)},
                {"probability", json_number(mode.probability)},
                {"mean", json_numbers(mode.mean)},
                {"sd", json_numbers(mode.sd)},
-               {"interval", each_finger(mode.interval, json_interval)},
+               {"interval", json_list(mode.interval, json_interval)},
                {"end_mean", json_numbers(mode.end_mean)},
                {"end_sd", json_numbers(mode.end_sd)},
-               {"point", each_finger(mode.start, point)},
-               {"tangent", each_finger(mode.tangent, direction)}};
-  if (mode.start.size() < 2) return json;
-  json["covariance"] = Json::array();
-  for (const Eigen::Index row : {0, 1}) {
-    json["covariance"].push_back(json_numbers(std::array{mode.covariance(row, 0), mode.covariance(row, 1)}));
-  }
+               {"point", json_list(mode.start, point)},
+               {"tangent", json_list(mode.tangent, direction)}};
+  if (mode.start.size() == 2) json["covariance"] = matrix_json(mode.covariance);
   return json;
 }
 
 /// The parts that remain, as identify lists them.
 void add_parts(const Tracked& answer, const Catalog& catalog, Json& event) {
-  const Json document = Json::parse(format_identified(catalog, *answer.parts, Layout::line));
+  const Json document = identified_document(catalog, *answer.parts);
   event["verdict"] = answer.parts->verdict;
   event["left"] = answer.parts->left.size();
   event["parts"] = answer.parts->counted ? Json(nullptr) : document["parts"];
@@ -62,7 +46,7 @@ void add_parts(const Tracked& answer, const Catalog& catalog, Json& event) {
 
 /// Beside a wheel, as `locate` has it.
 void add_held(const HoldAnswer& held, Json& event) {
-  const Json document = Json::parse(format_hold(held, Layout::line));
+  const Json document = hold_document(held);
   for (const char* field : {"status", "verdict", "placements", "rest", "fit", "unresolved"}) {
     event[field] = document[field];
   }
@@ -78,7 +62,7 @@ Json answer_json(const char* name, const Tracked& answer, const Part& part, cons
   event["time"] = answer.sample.time ? json_number(*answer.sample.time) : Json(nullptr);
   // What has not moved yet is 0 and not -0.
   event["reading"] = {
-      {"length", each_finger(answer.sample.reading.length, [](double length) { return json_number(length + 0.0); })},
+      {"length", json_list(answer.sample.reading.length, [](double length) { return json_number(length + 0.0); })},
       {"turn", json_number(answer.sample.reading.turn)}};
   const Reading& reading = answer.sample.reading;
   if (!reading.is_exact()) {
@@ -93,8 +77,7 @@ Json answer_json(const char* name, const Tracked& answer, const Part& part, cons
     return event;
   }
   event["verdict"] = answer.verdict.text();
-  event["placements"] = Json::array();
-  for (const Mode& mode : answer.modes) event["placements"].push_back(mode_json(mode, part));
+  event["placements"] = json_list(answer.modes, [&](const Mode& mode) { return mode_json(mode, part); });
   event["rest"] = json_number(answer.rest);
   event["excess"] = json_number(answer.fit.excess);
   event["length_scale"] = json_numbers(answer.fit.length_scale);
@@ -111,13 +94,13 @@ Json touches_json(const char* name, const TouchNews& news) {
   Json event = event_json(name);
   event["samples"] = news.answer.touches.size();
   event["line"] = news.line;
-  const Json answer = Json::parse(format_touches(news.answer, Layout::line));
+  const Json answer = touches_document(news.answer);
   for (const char* field : {"status", "verdict", "touches", "placements", "unresolved", "rest", "fit", "diagnosis"}) {
     event[field] = answer.value(field, Json(nullptr));
   }
   event["next"] = nullptr;
   if (!news.next) return event;
-  Json next = Json::parse(format_next_touch(news.answer, *news.next, Layout::line));
+  Json next = next_touch_document(news.answer, *news.next);
   for (const char* field : {"schema", "verdict", "part", "prospects"}) next.erase(field);
   event["next"] = std::move(next);
   return event;
@@ -152,10 +135,7 @@ class JsonlWriter : public WatchWriter {
     event["log"] = options.name_b ? Json::array({options.name, *options.name_b}) : Json(options.name);
     event["noise"] = noise_json(options.noise);
     if (options.wheel) event["wheel"] = json_number(*options.wheel);
-    event["prior"] = nullptr;
-    if (const auto& prior = options.prior) {
-      event["prior"] = Json::array({json_number(prior->s), json_number(prior->sd)});
-    }
+    event["prior"] = prior_json(options.prior);
     event["pose_prior"] = pose_prior_json(options.pose);
     event["robust"] = options.robust;
     announce(json_line(event));
