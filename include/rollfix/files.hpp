@@ -101,6 +101,7 @@ class Solution;
 struct Taught;
 struct TouchAnswer;
 struct TouchCertificate;
+struct TouchDiagnosis;
 
 /// How a document is laid out: a field on each line, or all of it on one.
 enum class Layout { lines, line };
@@ -148,6 +149,8 @@ std::vector<std::string> notes_of(const Answer& answer);
 /// What is wrong, and what to give instead, in plain English.
 std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);
 std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);
+/// Both in one, of touches and of rolls on a part at rest.
+std::string words_of(const TouchDiagnosis& diagnosis, const TouchAnswer& answer);
 
 /// "rollfix/locate/1" of whichever kind. `explain`: of one roll, with what the fingers can't do.
 std::string format_solution(const Solution& solution, Layout layout = Layout::lines, bool explain = false);

@@ -6,6 +6,7 @@
 
 #include "documents/documents.hpp"
 #include "log/header/log_header.hpp"
+#include "outline/turn.hpp"
 #include "roll/noise.hpp"
 #include "rollfix/files.hpp"
 #include "text/text.hpp"
@@ -166,6 +167,16 @@ std::string radius_words(const HoldDiagnosis& diagnosis, const HoldAnswer& answe
 
 std::string counted_rows(int rows) { return fmt::format("{} {}", rows, rows == 1 ? "row" : "rows"); }
 
+/// Without normals a mirror image does not say how it came about.
+std::string mirror_words(const TouchAnswer& answer) {
+  const bool any_normal = std::any_of(answer.touches.begin(), answer.touches.end(),
+                                      [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
+  const char* const also = any_normal ? "" : "; or x and y are swapped, or one of them has the wrong sign";
+  return std::string(answer.mirrored ? "the part does not lie face down: leave --mirror out"
+                                     : "the part lies face down: add --mirror") +
+         also;
+}
+
 }  // namespace
 
 /// As it is typed.
@@ -311,6 +322,45 @@ std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
       break;
   }
   return noise_option(diagnosis.noise);
+}
+
+std::string words_of(const TouchDiagnosis& diagnosis, const TouchAnswer& answer) {
+  switch (diagnosis.cause) {
+    case TouchCause::unit:
+      return fmt::format("the touches are in {}, the part in {}: multiply x and y by {:.6g}", diagnosis.unit,
+                         diagnosis.into, diagnosis.factor);
+    case TouchCause::outlier:
+      return fmt::format("touch {} is wrong: without it the others fit", diagnosis.touch + 1);
+    case TouchCause::radius:
+      if (diagnosis.radius == 0) return "x and y are of the contacts, not of the finger's centre: leave --finger out";
+      if (answer.radius == 0) {
+        return fmt::format("the touches are a finger's centres: add --finger disk,r={:.4g}", diagnosis.radius);
+      }
+      return fmt::format("the finger's radius is {:.4g}, not {:.6g}", diagnosis.radius, answer.radius);
+    case TouchCause::normals_reversed:
+      return "normals point into the part; expected out of it: add 180deg to each";
+    case TouchCause::normals_clockwise:
+      return "normals are counted clockwise; expected counter-clockwise: change their signs";
+    case TouchCause::mirrored:
+      return mirror_words(answer);
+    case TouchCause::swapped:
+      return "x and y are swapped; expected x first";
+    case TouchCause::other_side:
+      return "the outline is touched on its left side; expected on its right: reverse its points";
+    case TouchCause::clear:
+      return "the part is in the way of a path that is said to be clear: check --clear";
+    case TouchCause::pose:
+      if (diagnosis.poses == 0) return "the touch contradicts --pose";
+      return fmt::format("the touches contradict {}: without it the heading is {} deg",
+                         answer.pose && std::isfinite(answer.pose->place_sd) ? "--pose" : "--heading",
+                         fixed(diagnosis.pose.heading / kDegree, 3));
+    case TouchCause::moved:
+      return fmt::format("the part was moved between roll {} and roll {}: before and after it each fits by itself",
+                         diagnosis.roll + 1, diagnosis.roll + 2);
+    case TouchCause::noise:
+      break;
+  }
+  return fmt::format("the measurements are {:.2g} times as noisy as stated", diagnosis.factor);
 }
 
 std::vector<std::string> notes_of(const Answer& answer) {

@@ -198,8 +198,9 @@ Json pose_set_json(const TouchAnswer& answer, const TouchPose& set) {
   return json;
 }
 
-Json mistake_json(const TouchDiagnosis& diagnosis) {
+Json mistake_json(const TouchDiagnosis& diagnosis, const TouchAnswer& answer) {
   Json json = {{"cause", name_of(diagnosis.cause)},
+               {"what", words_of(diagnosis, answer)},
                {"places", diagnosis.poses},
                {"pose", pose_json(diagnosis.pose)},
                {"fit", fit_json(diagnosis.fit)}};
@@ -282,7 +283,10 @@ Json touches_document(const TouchAnswer& answer) {
     document["anywhere"] = json_number(answer.anywhere);
   }
   document["fit"] = answer.fit ? fit_json(*answer.fit) : Json(nullptr);
-  document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : json_list(answer.diagnoses, mistake_json);
+  document["diagnosis"] =
+      answer.diagnoses.empty()
+          ? Json(nullptr)
+          : json_list(answer.diagnoses, [&](const TouchDiagnosis& one) { return mistake_json(one, answer); });
   return document;
 }
 

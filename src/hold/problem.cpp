@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "box_search.hpp"
 #include "log/log_rows.hpp"
@@ -194,46 +195,36 @@ void require_clear(const HoldProblem& problem, const std::vector<Log>& logs) {
 
 namespace rollfix {
 
+namespace {
+
+constexpr std::array<std::pair<HoldCause, const char*>, 18> kHoldCauseNames = {
+    {{HoldCause::noise, "noise"},
+     {HoldCause::radius, "radius"},
+     {HoldCause::unit, "unit"},
+     {HoldCause::late, "late"},
+     {HoldCause::mirrored, "mirrored"},
+     {HoldCause::u_clockwise, "u_clockwise"},
+     {HoldCause::psi_clockwise, "psi_clockwise"},
+     {HoldCause::both_clockwise, "both_clockwise"},
+     {HoldCause::u_degrees, "u_degrees"},
+     {HoldCause::psi_degrees, "psi_degrees"},
+     {HoldCause::angles_degrees, "angles_degrees"},
+     {HoldCause::u_psi_swapped, "u_psi_swapped"},
+     {HoldCause::fingers_swapped, "fingers_swapped"},
+     {HoldCause::prior, "prior"},
+     {HoldCause::stray, "stray"},
+     {HoldCause::slip, "slip"},
+     {HoldCause::x_y_swapped, "x_y_swapped"},
+     {HoldCause::squeezed, "squeezed"}}};
+static_assert(kHoldCauseNames.size() == static_cast<std::size_t>(HoldCause::squeezed) + 1, "each cause has a name");
+
+}  // namespace
+
 const char* name_of(HoldCause cause) {
-  switch (cause) {
-    case HoldCause::radius:
-      return "radius";
-    case HoldCause::unit:
-      return "unit";
-    case HoldCause::late:
-      return "late";
-    case HoldCause::mirrored:
-      return "mirrored";
-    case HoldCause::u_clockwise:
-      return "u_clockwise";
-    case HoldCause::psi_clockwise:
-      return "psi_clockwise";
-    case HoldCause::both_clockwise:
-      return "both_clockwise";
-    case HoldCause::u_degrees:
-      return "u_degrees";
-    case HoldCause::psi_degrees:
-      return "psi_degrees";
-    case HoldCause::angles_degrees:
-      return "angles_degrees";
-    case HoldCause::u_psi_swapped:
-      return "u_psi_swapped";
-    case HoldCause::fingers_swapped:
-      return "fingers_swapped";
-    case HoldCause::prior:
-      return "prior";
-    case HoldCause::stray:
-      return "stray";
-    case HoldCause::slip:
-      return "slip";
-    case HoldCause::x_y_swapped:
-      return "x_y_swapped";
-    case HoldCause::squeezed:
-      return "squeezed";
-    case HoldCause::noise:
-      break;
+  for (const auto& [one, name] : kHoldCauseNames) {
+    if (one == cause) return name;
   }
-  return "noise";
+  return "";
 }
 
 namespace hold {

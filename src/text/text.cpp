@@ -141,6 +141,13 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  if (is_zero && !text.empty() && text.front() == '-' && std::isfinite(value)) text.erase(0, 1);
+  return text;
+}
+
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names) {
   // Beyond a third of the letters it is another word.
   std::size_t least = std::max<std::size_t>(typed.size() / 3, 1) + 1;

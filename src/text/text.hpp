@@ -44,6 +44,9 @@ std::string shown_point(double x, double y);
 /// "1 curve", "2 curves".
 std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
+/// With that many decimals; never "-0.000".
+std::string fixed(double value, int decimals);
+
 /// The name that takes the fewest edits (letters inserted, dropped, changed, or two neighbours swapped) to get
 /// from what was typed, or else one that begins with it; empty when none is near enough to be what was meant.
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names);

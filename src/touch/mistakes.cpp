@@ -17,34 +17,30 @@
 // Follows docs/touch.md, "If the touches contradict the noise".
 namespace rollfix {
 
+namespace {
+
+constexpr std::array<std::pair<TouchCause, const char*>, 12> kTouchCauseNames = {
+    {{TouchCause::unit, "unit"},
+     {TouchCause::outlier, "outlier"},
+     {TouchCause::radius, "radius"},
+     {TouchCause::normals_reversed, "normals reversed"},
+     {TouchCause::normals_clockwise, "normals clockwise"},
+     {TouchCause::mirrored, "mirrored"},
+     {TouchCause::moved, "moved"},
+     {TouchCause::swapped, "x and y swapped"},
+     {TouchCause::other_side, "other side"},
+     {TouchCause::pose, "pose"},
+     {TouchCause::clear, "clear"},
+     {TouchCause::noise, "noise"}}};
+static_assert(kTouchCauseNames.size() == static_cast<std::size_t>(TouchCause::noise) + 1, "each cause has a name");
+
+}  // namespace
+
 const char* name_of(TouchCause cause) {
-  switch (cause) {
-    case TouchCause::unit:
-      return "unit";
-    case TouchCause::outlier:
-      return "outlier";
-    case TouchCause::radius:
-      return "radius";
-    case TouchCause::normals_reversed:
-      return "normals reversed";
-    case TouchCause::normals_clockwise:
-      return "normals clockwise";
-    case TouchCause::mirrored:
-      return "mirrored";
-    case TouchCause::moved:
-      return "moved";
-    case TouchCause::swapped:
-      return "x and y swapped";
-    case TouchCause::other_side:
-      return "other side";
-    case TouchCause::pose:
-      return "pose";
-    case TouchCause::clear:
-      return "clear";
-    case TouchCause::noise:
-      break;
+  for (const auto& [one, name] : kTouchCauseNames) {
+    if (one == cause) return name;
   }
-  return "noise";
+  return "";
 }
 
 namespace touch {

@@ -157,6 +157,8 @@ TEST(CliRollAll, APartThatWasMovedIsInconsistentAndSaidToBe) {
   EXPECT_THAT(ran.out, HasSubstr("the part was moved between roll 1 and roll 2"));
   const Json document = run("locate gallery:limacon --log run.csv" + kRest + " --json").json();
   EXPECT_EQ(document["diagnosis"][0]["cause"], "moved");
+  EXPECT_EQ(document["diagnosis"][0]["what"],
+            "the part was moved between roll 1 and roll 2: before and after it each fits by itself");
   EXPECT_EQ(document["diagnosis"][0]["after_roll"], 1);
 }
 

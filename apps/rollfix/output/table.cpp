@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "outline/turn.hpp"
-#include "text/text.hpp"
 
 namespace rollfix::app {
 
@@ -51,13 +50,6 @@ int decimals_for(double size) {
   constexpr int kMostDecimals = 15;
   if (!(size > 0) || !std::isfinite(size)) return kDigits;
   return std::clamp(kDigits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, kMostDecimals);
-}
-
-std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
-  if (is_zero && !text.empty() && text.front() == '-' && std::isfinite(value)) text.erase(0, 1);
-  return text;
 }
 
 std::string rough(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }

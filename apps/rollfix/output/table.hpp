@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/text.hpp"
+
 namespace rollfix::app {
 
 inline constexpr std::size_t kMostRows = 40;   // placements in a table
@@ -34,9 +36,6 @@ int decimals_for(double size);
 std::string title_in(const std::string& title, const std::string& unit);
 /// "12.5 mm" behind a length.
 std::string behind(const std::string& unit);
-
-/// With that many decimals; never "-0.000".
-std::string fixed(double value, int decimals);
 
 /// Three significant digits, "-" for what is infinite or not defined.
 std::string rough(double value);

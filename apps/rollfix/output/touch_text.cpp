@@ -154,62 +154,13 @@ class TouchText {
     return table.str();
   }
 
-  /// Without normals a mirror image does not say how it came about.
-  std::string mirror_line() const {
-    const bool any_normal = std::any_of(answer_.touches.begin(), answer_.touches.end(),
-                                        [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
-    const char* const also = any_normal ? "" : "; or x and y are swapped, or one of them has the wrong sign";
-    return std::string(answer_.mirrored ? "the part does not lie face down: leave --mirror out"
-                                        : "the part lies face down: add --mirror") +
-           also;
-  }
-
-  std::string diagnosis_line(const TouchDiagnosis& one) const {
-    switch (one.cause) {
-      case TouchCause::unit:
-        return fmt::format("the touches are in {}, the part in {}: multiply x and y by {:.6g}", one.unit, one.into,
-                           one.factor);
-      case TouchCause::outlier:
-        return fmt::format("touch {} is wrong: without it the others fit", one.touch + 1);
-      case TouchCause::radius:
-        if (one.radius == 0) return "x and y are of the contacts, not of the finger's centre: leave --finger out";
-        if (answer_.radius == 0) {
-          return fmt::format("the touches are a finger's centres: add --finger disk,r={:.4g}", one.radius);
-        }
-        return fmt::format("the finger's radius is {:.4g}, not {:.6g}", one.radius, answer_.radius);
-      case TouchCause::normals_reversed:
-        return "normals point into the part; expected out of it: add 180deg to each";
-      case TouchCause::normals_clockwise:
-        return "normals are counted clockwise; expected counter-clockwise: change their signs";
-      case TouchCause::mirrored:
-        return mirror_line();
-      case TouchCause::swapped:
-        return "x and y are swapped; expected x first";
-      case TouchCause::other_side:
-        return "the outline is touched on its left side; expected on its right: reverse its points";
-      case TouchCause::clear:
-        return "the part is in the way of a path that is said to be clear: check --clear";
-      case TouchCause::pose:
-        if (one.poses == 0) return "the touch contradicts --pose";
-        return fmt::format("the touches contradict {}: without it the heading is {} deg",
-                           answer_.pose && std::isfinite(answer_.pose->place_sd) ? "--pose" : "--heading",
-                           degrees(one.pose.heading));
-      case TouchCause::moved:
-        return fmt::format("the part was moved between roll {} and roll {}: before and after it each fits by itself",
-                           one.roll + 1, one.roll + 2);
-      case TouchCause::noise:
-        break;
-    }
-    return fmt::format("the measurements are {:.2g} times as noisy as stated", one.factor);
-  }
-
   std::string diagnosis_lines() const {
     std::string text;
     for (const TouchDiagnosis& one : answer_.diagnoses) {
       const std::string fit = one.fit.freedom > 0 && one.cause != TouchCause::noise
                                   ? fmt::format(" (p = {:.2g}, {})", one.fit.p, counted(one.poses, "pose", "poses"))
                                   : "";
-      text += "possible cause: " + diagnosis_line(one) + fit + "\n";
+      text += "possible cause: " + words_of(one, answer_) + fit + "\n";
     }
     const bool is_odd = answer_.verdict.name == Verdict::inconsistent || answer_.verdict.fits_badly;
     if (!answer_.rolls.empty()) {
