@@ -90,6 +90,7 @@ struct Certificate;
 struct HoldAnswer;
 struct HoldCertificate;
 struct HoldDiagnosis;
+struct HoldProblem;
 struct Inspection;
 struct NextPin;
 struct NextRoll;
@@ -141,6 +142,20 @@ std::string format_hold(const HoldAnswer& answer, Layout layout = Layout::lines)
 
 /// "rollfix/advise/1" of how a wheel's pin moves next.
 std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout layout = Layout::lines);
+
+/// A certificate's document, whether it proves everything, and if not what in it says where it does not.
+struct CertificateText {
+  std::string text;
+  bool complete = true;
+  std::string where;
+};
+
+/// The certificate of an answer, searched again with its tolerance and this budget; of one to a roll without its noise,
+/// the part face up and one way round, so that others are to be refused beforehand. Throws InputError: as `certify`,
+/// `certify_pair`, `certify_touches` and `certify_holds`.
+CertificateText certificate_of(const Answer& answer, std::optional<std::size_t> budget = {});
+CertificateText certificate_of(const TouchAnswer& answer, std::optional<std::size_t> budget = {});
+CertificateText certificate_of(const HoldProblem& problem, const HoldAnswer& answer);
 
 /// What to know about how a roll was understood, a sentence each: rows on corners of a finger, a way round that can't
 /// be, lengths that changed their signs.

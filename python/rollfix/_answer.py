@@ -222,7 +222,7 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
         ):
             if found:
                 raise InputError(f"certify: a certificate is of one way round without noise, found {what}")
-        return proof(self._core, file, budget, "its cells say where")
+        return proof(self._core, file, budget)
 
     def density(self, s: Any = None, finger: int = 0) -> Any:
         """The posterior of where the first contact was. Needs noise.

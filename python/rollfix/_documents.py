@@ -64,10 +64,10 @@ class Listing(Document):
         return len(self.placements)
 
 
-def proof(answer: Any, file: Any, budget: Optional[int], where: str) -> Dict[str, Any]:
-    """The certificate of an answer of `_core`, written as well if `file` is given. `where`: what says what is left open."""
+def proof(answer: Any, file: Any, budget: Optional[int]) -> Dict[str, Any]:
+    """The certificate of an answer of `_core`, written as well if `file` is given."""
     most = None if budget is None else whole(budget, "budget", 1)
-    document, is_complete = answer.certificate(most)
+    document, is_complete, where = answer.certificate(most)
     if file is not None:
         with open(path(file, "file"), "w", encoding="utf-8") as out:
             out.write(document)
@@ -101,7 +101,7 @@ class Proved(Listing):
         budget : int, optional
             As of `Part.locate`; by default what this answer was asked with.
         """
-        return proof(self._answer, file, budget, "`unresolved`, or sets without `first`, say where")
+        return proof(self._answer, file, budget)
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
         """A figure of the part in the world in each placement, with what touched it."""

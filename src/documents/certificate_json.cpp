@@ -263,4 +263,27 @@ std::string format_certificate(const HoldCertificate& certificate) {
   return json_text(json);
 }
 
+CertificateText certificate_of(const Answer& answer, std::optional<std::size_t> budget) {
+  LocateOptions options;
+  options.tolerance = answer.tolerance.value;
+  options.facing = answer.facing;
+  if (budget) options.budget = *budget;
+  const auto text_of = [](const auto& certificate) {
+    return CertificateText{format_certificate(certificate), certificate.is_complete(), "its cells say where"};
+  };
+  return answer.finger_count() == 2 ? text_of(certify_pair(answer.part, answer.readings, options))
+                                    : text_of(certify(answer.part, answer.readings, options));
+}
+
+CertificateText certificate_of(const TouchAnswer& answer, std::optional<std::size_t> budget) {
+  const TouchCertificate certificate = certify_touches(answer, budget);
+  return {format_certificate(certificate), certificate.is_complete(), "`unresolved` says where"};
+}
+
+CertificateText certificate_of(const HoldProblem& problem, const HoldAnswer& answer) {
+  const HoldCertificate certificate = certify_holds(problem, answer);
+  return {format_certificate(certificate), certificate.is_complete(),
+          certificate.unresolved.empty() ? "sets without `first` say where" : "`unresolved` says where"};
+}
+
 }  // namespace rollfix

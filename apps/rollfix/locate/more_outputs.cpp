@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "outline/point_table.hpp"
-#include "rollfix/certify.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/output/report.hpp"
@@ -30,27 +29,7 @@ void require_plain(const Problem& problem) {
   refuse(problem.mirrored, "--mirror");
 }
 
-/// A certificate as text, and whether it proves everything.
-struct Written {
-  std::string text;
-  bool is_complete = true;
-  const char* where = "its cells say where";
-};
-
-Written written(const Problem& problem, const Answer& answer) {
-  LocateOptions options;
-  options.tolerance = answer.tolerance.value;
-  options.facing = answer.facing;
-  if (problem.budget) options.budget = *problem.budget;
-  if (answer.finger_count() == 2) {
-    const PairCertificate certificate = certify_pair(answer.part, answer.readings, options);
-    return {format_certificate(certificate), certificate.is_complete()};
-  }
-  const Certificate certificate = certify(answer.part, answer.readings, options);
-  return {format_certificate(certificate), certificate.is_complete()};
-}
-
-void add_written(const std::string& file, bool force, Written certificate, Report& report) {
+void add_written(const std::string& file, bool force, CertificateText certificate, Report& report) {
   if (file == "-") {
     report.notes.push_back(report.data.substr(0, report.data.find('\n')));
     report.data = std::move(certificate.text);
@@ -58,7 +37,7 @@ void add_written(const std::string& file, bool force, Written certificate, Repor
     report.files.push_back({file, std::move(certificate.text), force});
     report.notes.push_back(fmt::format("wrote {}", file));
   }
-  if (certificate.is_complete) return;
+  if (certificate.complete) return;
   report.notes.push_back(fmt::format("the certificate leaves something unproved: {}", certificate.where));
   report.exit_code = ExitCode::incomplete;
 }
@@ -77,21 +56,17 @@ void require_certificate(const std::string& file, bool force, bool json, const s
 void add_certificate(const std::string& file, bool force, const Problem& problem, const Answer& answer,
                      Report& report) {
   require_plain(problem);
-  add_written(file, force, written(problem, answer), report);
+  add_written(file, force, certificate_of(answer, problem.budget), report);
 }
 
 void add_certificate(const std::string& file, bool force, const TouchProblem& problem, const TouchAnswer& answer,
                      Report& report) {
-  const TouchCertificate certificate = certify_touches(answer, problem.budget);
-  add_written(file, force, {format_certificate(certificate), certificate.is_complete(), "`unresolved` says where"},
-              report);
+  add_written(file, force, certificate_of(answer, problem.budget), report);
 }
 
 void add_certificate(const std::string& file, bool force, const HoldProblem& problem, const HoldAnswer& answer,
                      Report& report) {
-  const HoldCertificate certificate = certify_holds(problem, answer);
-  const char* where = certificate.unresolved.empty() ? "sets without `first` say where" : "`unresolved` says where";
-  add_written(file, force, {format_certificate(certificate), certificate.is_complete(), where}, report);
+  add_written(file, force, certificate_of(problem, answer), report);
 }
 
 namespace {

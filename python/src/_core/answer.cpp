@@ -5,9 +5,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "rollfix/certify.hpp"
 #include "rollfix/files.hpp"
-#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -74,22 +72,6 @@ std::string whole_document(const AnswerHandle& handle, bool explain) {
   return format_answer(*handle.answer, Layout::line, explain);
 }
 
-/// The document, and whether it proves everything.
-std::pair<std::string, bool> certificate_of(const AnswerHandle& handle, const std::optional<std::size_t>& budget) {
-  const Answer& answer = *handle.answer;
-  LocateOptions options;
-  options.tolerance = answer.tolerance.value;
-  options.facing = answer.facing;
-  if (budget) options.budget = *budget;
-  const Unlocked others_may_run;
-  if (answer.finger_count() == 2) {
-    const PairCertificate certificate = certify_pair(answer.part, answer.readings, options);
-    return {format_certificate(certificate), certificate.is_complete()};
-  }
-  const Certificate certificate = certify(answer.part, answer.readings, options);
-  return {format_certificate(certificate), certificate.is_complete()};
-}
-
 py::object facing_of(const AnswerHandle& handle) {
   const std::optional<double>& facing = handle.answer->facing;
   return facing ? py::object(py::float_(*facing)) : py::none();
@@ -142,7 +124,10 @@ void bind_answer(py::module_& module) {
       .def("density_pieces", &density_of)
       .def("density", &density_each)
       .def("document", &whole_document)
-      .def("certificate", &certificate_of)
+      .def("certificate",
+           [](const AnswerHandle& handle, const std::optional<std::size_t>& budget) {
+             return certified([&] { return certificate_of(*handle.answer, budget); });
+           })
       .def_property_readonly("either_way", [](const AnswerHandle& handle) { return handle.answer->either_way; })
       .def("bytes", [](const AnswerHandle& handle) { return py::bytes(bytes_of(*handle.answer)); })
       .def("state", &answer_state);

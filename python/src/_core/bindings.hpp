@@ -1,11 +1,16 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "arrays.hpp"
 #include "fingers.hpp"
 #include "handles.hpp"
+#include "rollfix/documents.hpp"
 #include "rollfix/question.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 
@@ -15,6 +20,14 @@ AnswerHandle answer_from_state(const PartHandle& part, const py::tuple& fingers,
 
 /// The solution as Python holds it: an AnswerHandle, a TouchAnswerHandle or a HoldAnswerHandle.
 py::object handle_of(Solution solution, const Question& question);
+
+/// Of what `make` certifies: the document, whether it proves everything, and if not what in it says where.
+template <class Make>
+std::tuple<std::string, bool, std::string> certified(const Make& make) {
+  const Unlocked others_may_run;
+  CertificateText one = make();
+  return {std::move(one.text), one.complete, std::move(one.where)};
+}
 
 // One function for each file: what it adds to the module.
 

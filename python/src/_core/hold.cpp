@@ -4,22 +4,11 @@
 
 #include "bindings.hpp"
 #include "handles.hpp"
-#include "rollfix/certify.hpp"
 #include "rollfix/files.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
-
-/// The document, and whether it proves everything.
-std::pair<std::string, bool> hold_certificate_of(const HoldAnswerHandle& handle,
-                                                 const std::optional<std::size_t>& budget) {
-  const Unlocked others_may_run;
-  HoldProblem problem = *handle.problem;
-  if (budget) problem.budget = budget;
-  const HoldCertificate certificate = certify_holds(problem, *handle.answer);
-  return {format_certificate(certificate), certificate.is_complete()};
-}
 
 /// How the wheel's pin moves next, as a document.
 std::string next_pin_of(const HoldAnswerHandle& handle, const std::optional<std::pair<double, double>>& travel) {
@@ -35,7 +24,13 @@ void bind_hold(py::module_& module) {
   py::class_<HoldAnswerHandle>(module, "HoldAnswer")
       .def("document", [](const HoldAnswerHandle& handle) { return format_hold(*handle.answer, Layout::line); })
       .def("next_pin", &next_pin_of)
-      .def("certificate", &hold_certificate_of);
+      .def("certificate", [](const HoldAnswerHandle& handle, const std::optional<std::size_t>& budget) {
+        return certified([&] {
+          HoldProblem problem = *handle.problem;
+          if (budget) problem.budget = budget;
+          return certificate_of(problem, *handle.answer);
+        });
+      });
 }
 
 }  // namespace rollfix::python

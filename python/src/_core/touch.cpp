@@ -4,7 +4,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "rollfix/certify.hpp"
 #include "rollfix/files.hpp"
 #include "signals.hpp"
 
@@ -21,20 +20,16 @@ std::string next_touch_document(const TouchAnswerHandle& handle, const Numbers& 
   return format_next_touch(*handle.answer, next_touch(*handle.answer, ways), Layout::line);
 }
 
-/// The document, and whether it proves everything.
-std::pair<std::string, bool> certificate_of(const TouchAnswerHandle& handle, const std::optional<std::size_t>& budget) {
-  const Unlocked others_may_run;
-  const TouchCertificate certificate = certify_touches(*handle.answer, budget);
-  return {format_certificate(certificate), certificate.is_complete()};
-}
-
 }  // namespace
 
 void bind_touch(py::module_& module) {
   py::class_<TouchAnswerHandle>(module, "TouchAnswer")
       .def_property_readonly("part", [](const TouchAnswerHandle& handle) { return PartHandle(handle.answer->part); })
       .def("document", [](const TouchAnswerHandle& handle) { return format_touches(*handle.answer, Layout::line); })
-      .def("certificate", &certificate_of)
+      .def("certificate",
+           [](const TouchAnswerHandle& handle, const std::optional<std::size_t>& budget) {
+             return certified([&] { return certificate_of(*handle.answer, budget); });
+           })
       .def("next_touch", &next_touch_document);
 }
 
