@@ -11,10 +11,10 @@
 #include "labels.hpp"
 #include "outline/box.hpp"
 #include "plot.hpp"
+#include "posed_part.hpp"
 #include "rollfix/error.hpp"
 #include "scene.hpp"
 #include "text/text.hpp"
-#include "trace.hpp"
 
 // What the fingers can do next: what a roll would tell by its length, and a plan in the world and in time.
 namespace rollfix {
@@ -108,7 +108,7 @@ class PlanPicture {
       : figure_(figure), plan_(*figure.plan), problem_(*figure.problem), rows_(plan_.roll.log.time.size()) {
     const Box bounds = part_bounds(problem_.part);
     size_ = bounds.sizes().maxCoeff();
-    outline_ = trace(problem_.part, 1e-4 * size_).points;
+    outline_ = coarse_outline(problem_.part, size_).points;
     shown_ = plan_.failure ? std::min(plan_.margins[*plan_.failure].row, rows_ - 1) : rows_ - 1;
     frame_all();
   }

@@ -96,8 +96,7 @@ Interval turning_range(const Part& part);
 /// Points of a graph on the page. `value` takes a Turning. Jumps between spirals become upright lines.
 std::vector<Vec2> graph(const Part& part, const Axes& axes, const std::function<double(const Turning&)>& value);
 
-inline constexpr double kWorldDot = 2.6;     // a contact's, pixels
-inline constexpr double kWorldGhost = 0.55;  // opacity of poses but the first
+inline constexpr double kWorldDot = 2.6;  // a contact's, pixels
 
 /// The world on the page, in a frame with axes: one scale both ways, and all that is seen inside.
 class World {
@@ -120,6 +119,6 @@ class World {
 };
 
 /// Points of a part in the world.
-std::vector<Vec2> posed(const std::vector<Vec2>& points, const Pose& pose, bool mirrored);
+std::vector<Vec2> posed(const std::vector<Vec2>& points, const Pose& pose, bool mirrored = false);
 
 }  // namespace rollfix::draw

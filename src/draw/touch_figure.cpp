@@ -12,11 +12,11 @@
 #include "outline/box.hpp"
 #include "outline/turn.hpp"
 #include "plot.hpp"
+#include "posed_part.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/touch.hpp"
 #include "scene.hpp"
 #include "text/text.hpp"
-#include "trace.hpp"
 
 // Touches and the poses that fit them, in the world; below, with noise, how dense the part's heading is. Notation:
 //   w_k, m_k, sd_k   terms of a pose's heading, radians: MixtureTerm, of all together 1
@@ -129,17 +129,16 @@ namespace draw {
 namespace {
 
 constexpr std::size_t kMostTouchPoses = 6;
-constexpr double kTouchRounding = 1e-9;  // of the perimeter: a place's rounding
-constexpr double kTouchNormal = 26;      // length of a normal, pixels
+constexpr double kTouchNormal = 26;  // length of a normal, pixels
 
 class TouchPicture {
  public:
   explicit TouchPicture(const TouchFigure& figure)
-      : figure_(figure), answer_(*figure.answer), headings_(answer_, figure.width) {
-    const Box bounds = part_bounds(answer_.part);
-    outline_ = trace(answer_.part, 1e-4 * bounds.sizes().maxCoeff()).points;
-    const std::size_t shown = std::min(answer_.poses.size(), kMostTouchPoses);
-    for (std::size_t k = 0; k < shown; ++k) poses_.push_back(placed(outline_, answer_.poses[k].pose));
+      : figure_(figure),
+        answer_(*figure.answer),
+        headings_(answer_, figure.width),
+        part_(answer_.part, answer_.place, answer_.mirrored),
+        shown_(std::min(answer_.poses.size(), kMostTouchPoses)) {
     frame();
   }
 
@@ -149,9 +148,8 @@ class TouchPicture {
     svg.describe("The part in each pose that the touches leave");
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
                 {{contacts_text()}});
-    world_.open(
-        svg, answer_.place == PlaceKnown::unknown ? "turned as in the world; its place is not known" : "in the world");
-    for (std::size_t k = poses_.size(); k-- > 0;) pose(svg, k);
+    world_.open(svg, part_.frame_words());
+    for (std::size_t k = shown_; k-- > 0;) pose(svg, k);
     for (const RollFacts& roll : answer_.rolls) rolled(svg, roll);
     for (const Clear& path : answer_.clear) passed(svg, path);
     for (std::size_t k = 0; k < answer_.touches.size(); ++k) touched(svg, answer_.touches[k], is_outlier(k));
@@ -164,14 +162,10 @@ class TouchPicture {
   }
 
  private:
-  std::vector<Vec2> placed(const std::vector<Vec2>& points, const Pose& pose) const {
-    return posed(points, answer_.place == PlaceKnown::unknown ? Pose{0, 0, pose.heading} : pose, answer_.mirrored);
-  }
-
   /// One scale both ways, and all of the poses and touches inside.
   void frame() {
     Box seen;
-    for (const std::vector<Vec2>& points : poses_) seen.extend(box_around(points));
+    for (std::size_t k = 0; k < shown_; ++k) seen.extend(box_around(part_.at(answer_.poses[k].pose)));
     for (const MeasuredTouch& touch : answer_.touches) {
       if (!touch.has_place()) continue;
       seen.extend(Vec2(touch.at + Vec2::Constant(answer_.radius)));
@@ -185,15 +179,8 @@ class TouchPicture {
   }
 
   void pose(Svg& svg, std::size_t k) const {
-    const std::vector<Vec2> points = world_.path(poses_[k]);
     svg.open_group("pose");
-    if (k == 0 && answer_.part.closed() && !answer_.part.outline().hole) svg.polygon(points, draw::filled(kMaterial));
-    svg.polyline(points, stroke(colour(k), k == 0 ? 1.8 : 1.1, "", k == 0 ? 1 : kWorldGhost));
-    if (k == 0) {
-      for (const Outline& other : figure_.others) {
-        svg.polyline(world_.path(placed(polyline_of(other), answer_.poses[0].pose)), stroke(kSoftInk, 0.6));
-      }
-    }
+    part_.draw(svg, world_, k, answer_.poses[k].pose, figure_.others);
     svg.close_group();
   }
 
@@ -237,7 +224,7 @@ class TouchPicture {
     svg.polyline(without_tip(path, 4), stroke(kInk, 1.2, "6 3"));
     draw_arrowhead(svg, path, 7, kInk);
     for (const ExpectedTouch& one : next.expected) {
-      if (!one.hits || one.placement >= poses_.size()) continue;
+      if (!one.hits || one.placement >= shown_) continue;
       svg.circle(world_.at(one.at), std::max(world_.pixels(answer_.radius), kWorldDot),
                  stroke(colour(one.placement), 1.2));
     }
@@ -270,19 +257,10 @@ class TouchPicture {
 
   std::vector<LegendEntry> entries() const {
     std::vector<LegendEntry> result;
-    for (std::size_t k = 0; k < poses_.size(); ++k) {
+    for (std::size_t k = 0; k < shown_; ++k) {
       const TouchPose& pose = answer_.poses[k];
-      const auto place = [&](double value) {  // without what is rounding
-        return pretty(std::abs(value) <= kTouchRounding * answer_.part.perimeter() ? 0 : value);
-      };
-      const std::string where = answer_.place == PlaceKnown::unknown
-                                    ? "its place is not known"
-                                    : fmt::format("x {}, y {}", place(pose.estimate().x), place(pose.estimate().y));
-      std::string text = fmt::format("p{}: {}, heading {}", k, where,
-                                     pose.any_heading ? "any" : pretty_degrees(pose.estimate().heading));
-      if (std::isfinite(pose.probability)) text += ", " + percent(pose.probability);
-      if (pose.continuum) text += ", one of a continuum";
-      result.push_back({Sign::line, colour(k), {{text}}, ""});
+      result.push_back(part_.entry(k, fmt::format("p{}:", k),
+                                   {pose.estimate(), pose.probability, pose.continuum, pose.any_heading}));
     }
     for (std::size_t k = 0; k < answer_.touches.size(); ++k) {
       if (!is_outlier(k)) continue;
@@ -291,7 +269,7 @@ class TouchPicture {
                         {{fmt::format("touch {} is an outlier, {} probable", k + 1, percent(answer_.outlier[k]))}},
                         ""});
     }
-    const std::size_t more = answer_.poses.size() - poses_.size();
+    const std::size_t more = answer_.poses.size() - shown_;
     if (more > 0)
       result.push_back({Sign::line, kPaper, {{fmt::format("{} less likely poses are not drawn", more)}}, ""});
     return result;
@@ -300,8 +278,8 @@ class TouchPicture {
   const TouchFigure& figure_;
   const TouchAnswer& answer_;
   HeadingDensities headings_;
-  std::vector<Vec2> outline_;
-  std::vector<std::vector<Vec2>> poses_;
+  PosedPart part_;
+  std::size_t shown_;  // poses
   World world_;
 };
 

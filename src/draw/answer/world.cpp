@@ -10,6 +10,7 @@
 #include "draw/answer/answer_plan.hpp"
 #include "draw/answer/densities.hpp"
 #include "draw/labels.hpp"
+#include "draw/posed_part.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/log.hpp"
 
@@ -70,9 +71,8 @@ class WorldPicture {
  public:
   WorldPicture(Svg& svg, const AnswerPlan& plan, const Box& area)
       : svg_(svg), plan_(plan), log_(*plan.figure->log), shown_(posed_rows(plan)) {
-    const Part& part = plan.part();
     size_ = plan.framing.part.sizes().maxCoeff();
-    outline_ = trace(part, 1e-4 * size_).points;
+    outline_ = coarse_outline(plan.part(), size_).points;
     middle_ = pivot();
     frame(area);
   }
@@ -109,12 +109,6 @@ class WorldPicture {
     return {rows.x[row], rows.y[row], rows.psi[row]};
   }
 
-  std::vector<Vec2> moved(const std::vector<Vec2>& points, const Pose& pose) const {
-    std::vector<Vec2> out;
-    for (const Vec2& point : points) out.push_back(pose.world(point));
-    return out;
-  }
-
   std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
     std::vector<Vec2> out;
     for (const Vec2& point : points) out.push_back(axes_(point.x(), point.y()));
@@ -124,11 +118,11 @@ class WorldPicture {
   /// Chooses what is seen: all parts, and the fingers at both ends of the roll.
   void frame(const Box& area) {
     Box seen;
-    for (const std::size_t k : shown_) seen.extend(box_around(moved(outline_, first_pose(plan_.placements()[k]))));
-    if (plan_.has_pairs()) seen.extend(box_around(moved(outline_, main().pose.back())));
+    for (const std::size_t k : shown_) seen.extend(box_around(posed(outline_, first_pose(plan_.placements()[k]))));
+    if (plan_.has_pairs()) seen.extend(box_around(posed(outline_, main().pose.back())));
     for (std::size_t finger = 0; finger < log_.fingers.size(); ++finger) {
       for (const std::size_t row : {std::size_t{0}, log_.rows() - 1}) {
-        seen.extend(box_around(moved(shape_of(finger_at(finger), size_), finger_pose(finger, row))));
+        seen.extend(box_around(posed(shape_of(finger_at(finger), size_), finger_pose(finger, row))));
       }
     }
     for (const FingerRows& rows : log_.fingers) {
@@ -165,7 +159,7 @@ class WorldPicture {
 
   void part_at(std::size_t k) {
     const bool is_main = k == shown_.back();
-    const std::vector<Vec2> path = on_page(moved(outline_, first_pose(plan_.placements()[k])));
+    const std::vector<Vec2> path = on_page(posed(outline_, first_pose(plan_.placements()[k])));
     svg_.open_group(is_main ? "part" : "other-pose");
     Paint paint = stroke(colour_of(k), is_main ? 1.6 : 1, is_main ? "" : "5 3", is_main ? 1 : 0.8);
     const bool is_solid = is_main && plan_.part().closed() && plan_.part().turns() > 0;
@@ -176,7 +170,7 @@ class WorldPicture {
       svg_.polyline(path, paint);
     }
     for (std::size_t other = 0; is_main && other < plan_.figure->others.size(); ++other) {
-      const std::vector<Vec2> loop = moved(polyline_of(plan_.figure->others[other]), first_pose(main()));
+      const std::vector<Vec2> loop = posed(polyline_of(plan_.figure->others[other]), first_pose(main()));
       svg_.polyline(on_page(loop), stroke(kSoftInk, 0.7));
     }
     svg_.close_group();
@@ -186,7 +180,7 @@ class WorldPicture {
   void later_pose() {
     if (!plan_.has_pairs()) return;
     svg_.open_group("last-pose");
-    svg_.polyline(on_page(moved(outline_, main().pose.back())), stroke(kInk, 0.9, "5 3"));
+    svg_.polyline(on_page(posed(outline_, main().pose.back())), stroke(kInk, 0.9, "5 3"));
     svg_.close_group();
   }
 
@@ -198,7 +192,7 @@ class WorldPicture {
     svg_.open_group("finger-path");
     svg_.polyline(on_page(path), stroke(colour, 1.2));
     for (const std::size_t row : {std::size_t{0}, log_.rows() - 1}) {
-      const std::vector<Vec2> rim = on_page(moved(shape_of(finger_at(which), size_), finger_pose(which, row)));
+      const std::vector<Vec2> rim = on_page(posed(shape_of(finger_at(which), size_), finger_pose(which, row)));
       Paint paint = stroke(colour, 1.2);
       if (!finger_at(which).is_jaw() && row == 0) {
         paint.fill = std::string(colour);
@@ -296,7 +290,7 @@ class WorldPicture {
       for (const double side : {-kInterval95, kInterval95}) {
         const Eigen::Vector3d off = (side * sd * axes.eigenvectors().col(axis)).cwiseQuotient(unit);
         const Pose pose{spread.mean.x + off.x(), spread.mean.y + off.y(), spread.mean.heading + off.z()};
-        svg_.polyline(on_page(moved(outline_, pose)), stroke(colour_of(shown_.back()), 0.8, "", kGhostOpacity));
+        svg_.polyline(on_page(posed(outline_, pose)), stroke(colour_of(shown_.back()), 0.8, "", kGhostOpacity));
       }
     }
     svg_.close_group();
