@@ -21,25 +21,9 @@
 // Touches and the poses that fit them, in the world; below, with noise, how dense the part's heading is. Notation:
 //   w_k, m_k, sd_k   terms of a pose's heading, radians: MixtureTerm, of all together 1
 //   p(phi)           sum of w_k / (sqrt(2 pi) sd_k) exp(-((phi - m_k) / sd_k)^2 / 2), per degree: `heading_density_at`
-namespace rollfix::draw {
+namespace rollfix {
+namespace draw {
 namespace {
-
-/// Below the figure of touches, with noise: the density of the part's heading in the likeliest poses, each at its own
-/// scale, with what holds 95 % of it shaded.
-class HeadingDensities {
- public:
-  HeadingDensities(const TouchAnswer& answer, double width);
-
-  double height() const;  // pixels; 0: there is nothing to draw
-  void draw(Svg& svg, double top) const;
-
- private:
-  void draw_one(Svg& svg, std::size_t pose, const Vec2& corner, double width) const;
-
-  const TouchAnswer& answer_;
-  double width_;
-  std::vector<std::size_t> shown_;
-};
 
 constexpr std::size_t kMostHeadings = 4;
 constexpr double kWorthHeading = 0.01;  // probability of a pose
@@ -70,63 +54,66 @@ bool is_heading_known(const TouchPose& pose) {
   return !pose.any_heading && !pose.density[2].empty() && !any_is_exact;
 }
 
-HeadingDensities::HeadingDensities(const TouchAnswer& answer, double width) : answer_(answer), width_(width) {
-  for (std::size_t k = 0; k < answer.poses.size() && shown_.size() < kMostHeadings; ++k) {
-    const TouchPose& pose = answer.poses[k];
-    if (pose.probability >= kWorthHeading && is_heading_known(pose)) shown_.push_back(k);
+/// Below the figure of touches, with noise: the density of the part's heading in the likeliest poses, each at its own
+/// scale, with what holds 95 % of it shaded.
+class HeadingDensities {
+ public:
+  HeadingDensities(const TouchAnswer& answer, double width) : answer_(answer), width_(width) {
+    for (std::size_t k = 0; k < answer.poses.size() && shown_.size() < kMostHeadings; ++k) {
+      const TouchPose& pose = answer.poses[k];
+      if (pose.probability >= kWorthHeading && is_heading_known(pose)) shown_.push_back(k);
+    }
   }
-}
 
-double HeadingDensities::height() const { return shown_.empty() ? 0 : kHeadingAbove + kHeadingHeight + kHeadingBelow; }
+  /// Pixels; 0: there is nothing to draw.
+  double height() const { return shown_.empty() ? 0 : kHeadingAbove + kHeadingHeight + kHeadingBelow; }
 
-void HeadingDensities::draw(Svg& svg, double top) const {
-  const auto count = static_cast<double>(shown_.size());
-  const double each = (width_ - kHeadingLeft - kHeadingRight - (count - 1) * kHeadingGap) / std::max(1.0, count);
-  for (std::size_t i = 0; i < shown_.size(); ++i) {
-    draw_one(svg, shown_[i], {kHeadingLeft + static_cast<double>(i) * (each + kHeadingGap), top + kHeadingAbove}, each);
+  void draw(Svg& svg, double top) const {
+    const auto count = static_cast<double>(shown_.size());
+    const double each = (width_ - kHeadingLeft - kHeadingRight - (count - 1) * kHeadingGap) / std::max(1.0, count);
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+      draw_one(svg, shown_[i], {kHeadingLeft + static_cast<double>(i) * (each + kHeadingGap), top + kHeadingAbove},
+               each);
+    }
   }
-}
 
-void HeadingDensities::draw_one(Svg& svg, std::size_t pose, const Vec2& corner, double width) const {
-  const TouchPose& set = answer_.poses[pose];
-  const Interval held{set.interval[2].lo / kDegree, set.interval[2].hi / kDegree};
-  Axes axes;
-  axes.corner = corner;
-  axes.size = {width, kHeadingHeight};
-  axes.x = widened({held.lo, std::max(held.hi, held.lo + kLeastDegrees)}, kHeadingMargin);
-  std::vector<Vec2> values;
-  const auto columns = static_cast<int>(width);
-  for (int k = 0; k <= columns; ++k) {
-    const double degrees = axes.x.lo + axes.x.width() * k / columns;
-    values.emplace_back(degrees, heading_density_at(set.density[2], degrees));
-    axes.y.hi = std::max(axes.y.hi, (1 + kHeadingHeadroom) * values.back().y());
+ private:
+  void draw_one(Svg& svg, std::size_t pose, const Vec2& corner, double width) const {
+    const TouchPose& set = answer_.poses[pose];
+    const Interval held{set.interval[2].lo / kDegree, set.interval[2].hi / kDegree};
+    Axes axes;
+    axes.corner = corner;
+    axes.size = {width, kHeadingHeight};
+    axes.x = widened({held.lo, std::max(held.hi, held.lo + kLeastDegrees)}, kHeadingMargin);
+    std::vector<Vec2> values;
+    const auto columns = static_cast<int>(width);
+    for (int k = 0; k <= columns; ++k) {
+      const double degrees = axes.x.lo + axes.x.width() * k / columns;
+      values.emplace_back(degrees, heading_density_at(set.density[2], degrees));
+      axes.y.hi = std::max(axes.y.hi, (1 + kHeadingHeadroom) * values.back().y());
+    }
+    svg.open_group("heading-density");
+    draw_axes(svg, axes, round_ticks(axes.x, std::max(2, static_cast<int>(width / 70))), round_ticks(axes.y, 3),
+              {{fmt::format("p{}: density, 1/\u00b0", pose)}}, "");
+    std::vector<Vec2> line, area;
+    for (const Vec2& value : values) {
+      line.push_back(axes(value.x(), value.y()));
+      if (value.x() >= held.lo && value.x() <= held.hi) area.push_back(line.back());
+    }
+    if (!area.empty()) {
+      area.emplace_back(area.back().x(), axes.page_y(0));
+      area.emplace_back(area.front().x(), axes.page_y(0));
+      svg.polygon(area, draw::filled(colour(pose), 0.45));
+    }
+    svg.polyline(line, stroke(kInk, 1));
+    draw_x_name(svg, axes, {{width > kRoomyHeading ? "heading, degrees; shaded: 95 %" : "heading, degrees"}});
+    svg.close_group();
   }
-  svg.open_group("heading-density");
-  draw_axes(svg, axes, round_ticks(axes.x, std::max(2, static_cast<int>(width / 70))), round_ticks(axes.y, 3),
-            {{fmt::format("p{}: density, 1/\u00b0", pose)}}, "");
-  std::vector<Vec2> line, area;
-  for (const Vec2& value : values) {
-    line.push_back(axes(value.x(), value.y()));
-    if (value.x() >= held.lo && value.x() <= held.hi) area.push_back(line.back());
-  }
-  if (!area.empty()) {
-    area.emplace_back(area.back().x(), axes.page_y(0));
-    area.emplace_back(area.front().x(), axes.page_y(0));
-    svg.polygon(area, draw::filled(colour(pose), 0.45));
-  }
-  svg.polyline(line, stroke(kInk, 1));
-  draw_x_name(svg, axes, {{width > kRoomyHeading ? "heading, degrees; shaded: 95 %" : "heading, degrees"}});
-  svg.close_group();
-}
 
-}  // namespace
-
-}  // namespace rollfix::draw
-
-namespace rollfix {
-
-namespace draw {
-namespace {
+  const TouchAnswer& answer_;
+  double width_;
+  std::vector<std::size_t> shown_;
+};
 
 constexpr std::size_t kMostTouchPoses = 6;
 constexpr double kTouchNormal = 26;  // length of a normal, pixels
