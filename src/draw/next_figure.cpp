@@ -100,7 +100,7 @@ namespace draw {
 namespace {
 
 constexpr double kPlanCone = 0.14;  // of the part's size: how long a cone is drawn
-constexpr double kPlanJaw = 0.35;   // of the part's size: how much of a jaw is drawn to each side
+constexpr int kPlanSides = 96;      // of a finger's outline
 
 class PlanPicture {
  public:
@@ -144,21 +144,9 @@ class PlanPicture {
 
   std::vector<Vec2> part_at(std::size_t row) const { return posed(outline_, pose(row), problem_.mirrored); }
 
-  /// A disk around its centre, of a jaw what is near its contact, an outline.
   std::vector<Vec2> finger_at(std::size_t which, std::size_t row) const {
-    const Finger& shape = problem_.fingers[which].finger;
-    const Pose frame = frame_of(which, row);
-    std::vector<Vec2> world;
-    if (shape.is_jaw()) {
-      const double u = plan_.roll.log.fingers[which].u[row];
-      return {frame.world({u - kPlanJaw * size_, 0}), frame.world({u + kPlanJaw * size_, 0})};
-    }
-    constexpr int kSides = 96;
-    const Interval ends = shape.ends();
-    const double length = std::isfinite(shape.period()) ? shape.period() : ends.width();
-    const double first = std::isfinite(shape.period()) ? 0 : ends.lo;
-    for (int k = 0; k <= kSides; ++k) world.push_back(frame.world(shape.point(first + length * k / kSides)));
-    return world;
+    const double contact = plan_.roll.log.fingers[which].u[row];
+    return posed(shape_of(problem_.fingers[which].finger, kPlanSides, size_, contact), frame_of(which, row));
   }
 
   std::vector<Vec2> way(std::size_t which) const {

@@ -4,19 +4,28 @@
 
 #include <cmath>
 
-#include "outline/box.hpp"
+#include "outline/turn.hpp"
 #include "scene.hpp"
 
 namespace rollfix::draw {
 namespace {
 
 constexpr double kCoarse = 1e-4;        // of the part's size: how far a coarse outline may be off
+constexpr double kJawShare = 0.35;      // likewise: how much of a jaw is drawn to each side
 constexpr double kPoseRounding = 1e-9;  // of the perimeter: a place's rounding
 constexpr double kOtherPose = 0.55;     // opacity of poses but the first
 
 }  // namespace
 
 Trace coarse_outline(const Part& part, double size) { return trace(part, kCoarse * size); }
+
+std::vector<Vec2> shape_of(const Finger& finger, int sides, double part_size, double u) {
+  if (finger.is_jaw()) return {{u - kJawShare * part_size, 0}, {u + kJawShare * part_size, 0}};
+  if (finger.outline()) return finger.outline()->polyline(0, finger.outline()->perimeter(), sides);
+  std::vector<Vec2> points;
+  for (int k = 0; k <= sides; ++k) points.push_back(finger.point(kFullTurn * k / sides));
+  return points;
+}
 
 PosedPart::PosedPart(const Part& part, PlaceKnown place, bool mirrored)
     : part_(part),

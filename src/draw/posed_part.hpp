@@ -7,6 +7,7 @@
 #include "labels.hpp"
 #include "plot.hpp"
 #include "rollfix/draw.hpp"
+#include "rollfix/finger.hpp"
 #include "rollfix/part.hpp"
 #include "rollfix/touch.hpp"
 #include "trace.hpp"
@@ -15,6 +16,10 @@ namespace rollfix::draw {
 
 /// The part's outline, near enough to be drawn in the world; `size`: the larger side of its box.
 Trace coarse_outline(const Part& part, double size);
+
+/// A finger's outline in its own frame, as so many sides; of a jaw what is drawn about its place `u`, by the part's
+/// size.
+std::vector<Vec2> shape_of(const Finger& finger, int sides, double part_size, double u = 0);
 
 /// What a legend says of one of an answer's poses.
 struct PoseWords {

@@ -34,7 +34,8 @@ constexpr double kSmallFan = 3 * kDegree;  // likewise
 constexpr double kOriginNear = 0.25;       // the part's origin is shown where it is no further from it, of its size
 constexpr double kUnknownHeading = 1;      // radians: with a larger standard deviation there is no heading to speak of
 constexpr double kGhostOpacity = 0.3;
-constexpr double kJawShare = 0.35;  // how much of a jaw is drawn, of the part's size
+constexpr int kDiskSides = 72;
+constexpr int kOutlineSides = 200;
 constexpr std::string_view kWorldFinger = "#8a8a8a";
 
 std::vector<std::size_t> posed_rows(const AnswerPlan& plan) {
@@ -51,20 +52,6 @@ std::vector<std::size_t> posed_rows(const AnswerPlan& plan) {
 
 Pose first_pose(const Placement& placement) {
   return placement.pose_spread ? placement.pose_spread->mean : placement.pose.front();
-}
-
-/// A finger's outline in its own frame; of a jaw what is seen of it.
-std::vector<Vec2> shape_of(const Finger& finger, double part_size) {
-  std::vector<Vec2> points;
-  if (finger.is_disk()) {
-    for (int k = 0; k <= 72; ++k) points.push_back(finger.point(kFullTurn * k / 72));
-  } else if (finger.is_jaw()) {
-    points = {Vec2(-kJawShare * part_size, 0), Vec2(kJawShare * part_size, 0)};
-  } else {
-    const Part& outline = *finger.outline();
-    points = outline.polyline(0, outline.perimeter(), 200);
-  }
-  return points;
 }
 
 class WorldPicture {
@@ -109,6 +96,11 @@ class WorldPicture {
     return {rows.x[row], rows.y[row], rows.psi[row]};
   }
 
+  std::vector<Vec2> rim(std::size_t which, std::size_t row) const {
+    const Finger& finger = finger_at(which);
+    return posed(shape_of(finger, finger.is_disk() ? kDiskSides : kOutlineSides, size_), finger_pose(which, row));
+  }
+
   std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
     std::vector<Vec2> out;
     for (const Vec2& point : points) out.push_back(axes_(point.x(), point.y()));
@@ -122,7 +114,7 @@ class WorldPicture {
     if (plan_.has_pairs()) seen.extend(box_around(posed(outline_, main().pose.back())));
     for (std::size_t finger = 0; finger < log_.fingers.size(); ++finger) {
       for (const std::size_t row : {std::size_t{0}, log_.rows() - 1}) {
-        seen.extend(box_around(posed(shape_of(finger_at(finger), size_), finger_pose(finger, row))));
+        seen.extend(box_around(rim(finger, row)));
       }
     }
     for (const FingerRows& rows : log_.fingers) {
@@ -192,13 +184,12 @@ class WorldPicture {
     svg_.open_group("finger-path");
     svg_.polyline(on_page(path), stroke(colour, 1.2));
     for (const std::size_t row : {std::size_t{0}, log_.rows() - 1}) {
-      const std::vector<Vec2> rim = on_page(posed(shape_of(finger_at(which), size_), finger_pose(which, row)));
       Paint paint = stroke(colour, 1.2);
       if (!finger_at(which).is_jaw() && row == 0) {
         paint.fill = std::string(colour);
         paint.fill_opacity = 0.2;
       }
-      svg_.polyline(rim, paint);
+      svg_.polyline(on_page(rim(which, row)), paint);
     }
     const std::vector<Vec2> ends = on_page({path.front(), path.back()});
     svg_.circle(ends.front(), 2.2, filled(colour));
