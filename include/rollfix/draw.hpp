@@ -241,6 +241,8 @@ Svg draw_touches(const TouchFigure& figure);
 
 /// The world: the part at the last instant in each placement (the likeliest drawn strong, up to six), where it was at
 /// the first one in the likeliest, and the ways of the fingers' centres with the fingers where they are at the end.
+/// Where that is one of a continuum, a first contact that is free is no point but a broad line, on the outline as it
+/// was at first: with noise what holds 95 % of it.
 struct HoldFigure {
   const HoldAnswer* answer = nullptr;  // not owned; required
   std::string title{};                 // empty: the part's name

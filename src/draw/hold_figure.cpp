@@ -11,6 +11,7 @@
 #include "plot.hpp"
 #include "posed_part.hpp"
 #include "rollfix/error.hpp"
+#include "rolls.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -19,6 +20,10 @@ namespace {
 
 constexpr std::size_t kMostHeldPoses = 6;
 constexpr double kHoldJaw = 0.45;  // half of a jaw as it is drawn, of the part's size
+constexpr double kFreeWidth = 12;  // of the first finger's stretch, pixels, ...
+constexpr double kFreeStep = 3;    // ... less of each further one's, ...
+constexpr double kLeastFreeWidth = 3;
+constexpr double kFreeOpacity = 0.5;
 
 class HoldPicture {
  public:
@@ -37,8 +42,9 @@ class HoldPicture {
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
                 {{fingers_words()}});
     world_.open(svg, part_.frame_words());
-    if (shows_first()) svg.polyline(world_.path(first_outline()), stroke(kSoftInk, 1, "4 3"));
+    if (!slides()) at_first(svg);
     for (std::size_t k = shown_; k-- > 0;) placement(svg, k);
+    if (slides()) at_first(svg);  // its stretches are seen whole
     for (const HoldRoll& roll : answer_.rolls) {
       finger(svg, roll);
       if (roll.is_jaw && !roll.track.empty()) jaw(svg, roll);
@@ -56,9 +62,37 @@ class HoldPicture {
     return wheels == 0 ? fingers : fmt::format("{} and {}", fingers, counted(wheels, "wheel", "wheels"));
   }
 
+  /// Whether the likeliest placement is one of a continuum.
+  bool slides() const { return shown_ > 0 && answer_.placements.front().continuum; }
   /// Whether the part is drawn where it was at the first contacts as well.
-  bool shows_first() const { return shown_ > 0 && answer_.place != PlaceKnown::unknown; }
+  bool shows_first() const { return shown_ > 0 && (answer_.place != PlaceKnown::unknown || slides()); }
   std::vector<Vec2> first_outline() const { return part_.at(answer_.placements.front().first); }
+
+  /// Where a first contact may be: with noise to 95 %.
+  Interval starts(const HoldContact& contact) const {
+    if (!answer_.noise) return contact.extent;
+    const Boundary boundary = answer_.part.boundary();
+    return is_anywhere(contact.interval, boundary) ? boundary.full_arc() : contact.interval;
+  }
+
+  /// The measurements leave it open: a point would say where it is.
+  bool is_free(const HoldPlacement& one, const HoldContact& contact) const {
+    return one.continuum && world_.pixels(starts(contact).width()) > kVisibleExtent;
+  }
+
+  /// In the likeliest placement.
+  std::vector<std::size_t> free_fingers() const {
+    std::vector<std::size_t> result;
+    if (!slides()) return result;
+    const HoldPlacement& one = answer_.placements.front();
+    for (std::size_t k = 0; k < one.contacts.size(); ++k) {
+      if (is_free(one, one.contacts[k])) result.push_back(k);
+    }
+    return result;
+  }
+
+  /// Apart from those of the placements.
+  static std::string_view finger_colour(std::size_t finger) { return colour(kMostHeldPoses + finger); }
 
   /// One scale both ways, and all of it inside.
   void frame() {
@@ -81,10 +115,27 @@ class HoldPicture {
     svg.open_group("placement");
     part_.draw(svg, world_, k, one.last, figure_.others);
     for (const HoldContact& contact : one.contacts) {
+      if (is_free(one, contact)) continue;
       const Vec2 at = part_.in_world({answer_.part.point(contact.end)}, one.last).front();
       svg.circle(world_.at(at), kWorldDot, draw::filled(colour(k)));
     }
     svg.close_group();
+  }
+
+  /// The part at the first contacts in the likeliest placement. Under its line the stretches of those that are free,
+  /// each narrower than the one before: all are seen where they overlap.
+  void at_first(Svg& svg) const {
+    if (!shows_first()) return;
+    const HoldPlacement& one = answer_.placements.front();
+    for (const std::size_t k : free_fingers()) {
+      const Interval range = starts(one.contacts[k]);
+      const std::vector<Vec2> stretch = slice(part_.outline(), range.lo, range.hi).points;
+      const double width = std::max(kLeastFreeWidth, kFreeWidth - kFreeStep * static_cast<double>(k));
+      svg.open_group(answer_.noise ? "interval" : "extent");
+      svg.polyline(world_.path(part_.in_world(stretch, one.first)), stroke(finger_colour(k), width, "", kFreeOpacity));
+      svg.close_group();
+    }
+    svg.polyline(world_.path(first_outline()), stroke(kSoftInk, 1, "4 3"));
   }
 
   /// A place of a jaw in the world at the first (0) or the last (1) instant, so far from its contact.
@@ -127,11 +178,25 @@ class HoldPicture {
     if (more > 0) {
       result.push_back({Sign::line, kPaper, {{fmt::format("{} more placements are not drawn", more)}}, ""});
     }
+    for (const std::size_t k : free_fingers()) result.push_back(free_start(k));
     if (shows_first()) result.push_back({Sign::line, kSoftInk, {{"dashed: at the first contacts, in 0"}}, ""});
     const bool any_wheel =
         std::any_of(answer_.rolls.begin(), answer_.rolls.end(), [](const HoldRoll& roll) { return roll.is_wheel; });
     if (any_wheel) result.push_back({Sign::line, kInk, {{"the fingers, and the ways of their origins and pins"}}, ""});
     return result;
+  }
+
+  LegendEntry free_start(std::size_t k) const {
+    const Interval range = starts(answer_.placements.front().contacts[k]);
+    const Boundary boundary = answer_.part.boundary();
+    const std::string where = boundary.is_full(range) ? "anywhere"
+                                                      : fmt::format("{}in {} to {}", answer_.noise ? "95 % " : "",
+                                                                    pretty_on(answer_.part, range.lo),
+                                                                    pretty_on(answer_.part, boundary.base(range.hi)));
+    const char letter = static_cast<char>('a' + k);
+    const std::string text =
+        fmt::format("{} {}'s first contact in 0: {}", answer_.rolls[k].is_wheel ? "wheel" : "finger", letter, where);
+    return {Sign::area, finger_colour(k), {{text}}, ""};
   }
 
   const HoldFigure& figure_;

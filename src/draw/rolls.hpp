@@ -79,6 +79,12 @@ std::vector<Vec2> path_beside(const Trace& stretch, const Clearance& boundary,
 /// An extent wider than this gets a band, pixels.
 inline constexpr double kVisibleExtent = 4;
 
+/// What holds 95 % may leave as much of a closed boundary out without telling where.
+inline bool is_anywhere(const Interval& held, const Boundary& boundary) {
+  constexpr double kNearlyAll = 0.85;  // of the perimeter
+  return boundary.closed && held.width() > kNearlyAll * boundary.perimeter;
+}
+
 /// Draws rolls beside a boundary: arcs, the thin lines that tie them to it, contacts and fingers. What it draws is
 /// also an obstacle for labels.
 class RollPen {

@@ -12,7 +12,6 @@
 namespace rollfix::draw {
 namespace {
 
-constexpr double kNearlyAll = 0.85;  // of the perimeter: what holds 95 % may leave as much out without telling where
 constexpr std::size_t kMostFingers = 2;  // placements with a finger each when none is highlighted
 constexpr std::size_t kMostNamed = 3;    // readings of which each has a named contact
 constexpr std::size_t kMostLines = 4;    // equations of two fingers that are drawn
@@ -114,7 +113,7 @@ bool AnswerPlan::has_labels() const { return placements().size() <= most.labels;
 bool AnswerPlan::has_list() const { return has_pairs() || ways.size() <= most.listed; }
 
 bool AnswerPlan::is_anywhere(std::size_t placement, std::size_t finger) const {
-  return part().closed() && placements()[placement].interval[finger].width() > kNearlyAll * part().perimeter();
+  return draw::is_anywhere(placements()[placement].interval[finger], part().boundary());
 }
 
 Interval AnswerPlan::held(std::size_t placement, std::size_t finger) const {
