@@ -6,7 +6,6 @@
 
 #include "documents/json_output.hpp"
 #include "rollfix/advise.hpp"
-#include "rollfix/documents.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/inspect.hpp"
 #include "rollfix/part.hpp"

@@ -8,7 +8,7 @@
 #include "arrays.hpp"
 #include "fingers.hpp"
 #include "handles.hpp"
-#include "rollfix/documents.hpp"
+#include "rollfix/files.hpp"
 #include "rollfix/question.hpp"
 #include "signals.hpp"
 
