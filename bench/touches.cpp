@@ -25,7 +25,7 @@ constexpr std::size_t kCases = 12;  // of a part
 constexpr std::size_t kFewCases = 2;
 constexpr double kPlaceShare = 1e-3;                  // of the diagonal: standard deviation of a place ...
 constexpr double kNormalSd = std::numbers::pi / 180;  // ... and of a normal
-constexpr double kSamePose = 2 * kTouchSigmas;        // standard deviations: poses that move no touch by more are one
+constexpr double kSamePose = 2 * kPossibleSigmas;     // standard deviations: poses that move no touch by more are one
 
 /// What is touched how often.
 struct Touching {
@@ -44,7 +44,7 @@ struct Question {
   bench::TouchQuestion asked() const { return {outline, touches, place_sd, kNormalSd}; }
   TouchProblem problem() const {
     TouchProblem problem{part, touches};
-    problem.tolerance = TouchTolerance{kTouchSigmas * place_sd, kTouchSigmas * kNormalSd};
+    problem.tolerance = TouchTolerance{kPossibleSigmas * place_sd, kPossibleSigmas * kNormalSd};
     problem.diagnose = false;
     return problem;
   }

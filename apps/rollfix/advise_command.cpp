@@ -17,7 +17,6 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/identify.hpp"
-#include "rollfix/locate/locate_command.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/output/table.hpp"
@@ -44,8 +43,8 @@ std::string headline(const HoldAnswer& held, const NextPin& next) {
   const ExpectedGain& advised = next.advice->advised();
   const int decimals = decimals_for(held.part.perimeter());
   return fmt::format(
-      "{}: move the pin by {} along the jaw{} and {} away from it{}: {:.2f} placements are expected to remain, {:.2f} "
-      "of "
+      "{}: move the pin by {} along the jaw{} and {} away from it{}: {:.2f} placements are expected "
+      "to remain, {:.2f} of "
       "{:.2f} bits gained\n",
       verdict, fixed(next.advice->lengths()[0], decimals), behind(held.part.unit()),
       held.squeezed ? "as the squeeze has it" : fixed(next.advice->lengths()[1], decimals),

@@ -202,8 +202,8 @@ bool fits(const TouchQuestion& question, const Pose& pose) {
   return std::all_of(question.touches.begin(), question.touches.end(), [&](const MeasuredTouch& touch) {
     const Vec2 point = seen(pose, touch.at);
     const NearestPoints::Place place = question.outline.nearest(point);
-    if ((point - place.point).norm() > kTouchSigmas * question.place_sd) return false;
-    return !touch.normal || std::abs(off_tangent(place, *touch.normal, pose)) <= kTouchSigmas * question.normal_sd;
+    if ((point - place.point).norm() > kPossibleSigmas * question.place_sd) return false;
+    return !touch.normal || std::abs(off_tangent(place, *touch.normal, pose)) <= kPossibleSigmas * question.normal_sd;
   });
 }
 

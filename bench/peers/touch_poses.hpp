@@ -44,7 +44,7 @@ struct TouchQuestion {
   double normal_sd = 0;  // radians
 };
 
-/// Whether every residual is within rollfix::kTouchSigmas.
+/// Whether every residual is within rollfix::kPossibleSigmas.
 bool fits(const TouchQuestion& question, const rollfix::Pose& pose);
 
 /// Each method begins with the first touch anywhere on the outline, its normal right where it has one. What fits comes

@@ -252,8 +252,8 @@ struct HoldCertificate : CertifiedOutline {
 };
 
 /// Searches again, and writes down what an answer claims: all first contacts within the tolerances are in one of its
-/// sets, each of which has some that fit. With noise the tolerances are 4.5 standard deviations (`kTouchSigmas`), and
-/// the sets that the answer leaves out are written down as well. `answer`: that of `solve` to this problem. Throws
+/// sets, each of which has some that fit. With noise the tolerances are 4.5 standard deviations (`kPossibleSigmas`),
+/// and the sets that the answer leaves out are written down as well. `answer`: that of `solve` to this problem. Throws
 /// InputError: as `solve`, an answer to another problem, an outline with a curve whose formula certificates don't have.
 HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answer);
 

@@ -57,7 +57,7 @@ struct TouchTolerance {
 
 /// With noise, a pose is a candidate where every measurement is within so many standard deviations. The true pose is
 /// beyond it once in 25,000 touches.
-inline constexpr double kTouchSigmas = 4.5;
+inline constexpr double kPossibleSigmas = 4.5;
 
 /// Touches and rolls on one part at rest, with one finger that is lifted in between.
 struct TouchProblem {

@@ -239,8 +239,8 @@ TouchGains::TouchGains(PartInPoses& lying)
   // One normal is enough: the next touch will have one as well.
   has_normals_ = std::any_of(answer_.touches.begin(), answer_.touches.end(),
                              [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
-  // A tolerance is kTouchSigmas standard deviations of the noise; without noise it is taken as one.
-  const double share = answer_.noise ? kTouchSigmas : 1;
+  // A tolerance is kPossibleSigmas standard deviations of the noise; without noise it is taken as one.
+  const double share = answer_.noise ? kPossibleSigmas : 1;
   for (const TouchTolerance& tolerance : answer_.tolerance) {
     place_sd_ = std::max(place_sd_, tolerance.length / share);
     turn_sd_ = std::max(turn_sd_, tolerance.angle / share);
@@ -458,8 +458,8 @@ RollStart start_in(const LikelyPose& one, const TouchAnswer& answer, PartDistanc
   // The tangent: by_pose is how far the contact goes along it when the pose moves by (dx, dy, dphi).
   const Vec2 along(-away.y(), away.x());
   const Eigen::Vector3d by_pose(along.x(), along.y(), along.y() * arm.x() - along.x() * arm.y());
-  const double share = answer.noise ? kTouchSigmas : 1;
-  // With noise a tolerance is kTouchSigmas standard deviations; without noise it is taken as one.
+  const double share = answer.noise ? kPossibleSigmas : 1;
+  // With noise a tolerance is kPossibleSigmas standard deviations; without noise it is taken as one.
   const double place_sd = answer.tolerance.back().length / share;
   return {one.weight, nearest.s, std::sqrt(by_pose.dot(one.covariance * by_pose) + place_sd * place_sd)};
 }
@@ -613,8 +613,8 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
   }
   if (answer.status != Status::complete) {
     throw InputError(
-        "next touch: expected a complete answer, found one that is undecided; touch once more, or raise "
-        "`budget`");
+        "next touch: expected a complete answer, found one that is undecided; touch once "
+        "more, or raise `budget`");
   }
   NextTouch next;
   next.why = advising::nothing_to_tell(answer);

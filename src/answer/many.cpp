@@ -54,8 +54,8 @@ void add_error(std::size_t k, const std::string& message, AnswerTable& table) {
   table.offsets.push_back(static_cast<std::int64_t>(table.kind.size()));
 }
 
-/// Room for what a block of problems mostly has.
-/// Columns with a value for each problem, for each placement, and for each finger of a placement.
+/// Room for what a block of problems mostly has, in columns with a value for each problem, for each placement, and for
+/// each finger of a placement.
 void reserve(AnswerTable& table) {
   constexpr std::size_t kRows = 6 * kBlock;
   const std::size_t each = kRows * table.fingers;

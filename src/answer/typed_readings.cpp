@@ -51,8 +51,8 @@ std::string found_instead(std::size_t count, std::size_t expected) {
 void require_fields(std::size_t count, bool of_two, const std::string& what) {
   if (of_two && count != 3) {
     throw InputError(
-        fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, for another reading has three numbers, "
-                    "found {}",
+        fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, for another reading has "
+                    "three numbers, found {}",
                     what, found_instead(count, 3)));
   }
   if (!of_two && count != 2) {

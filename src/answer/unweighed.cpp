@@ -88,8 +88,7 @@ class RowsCheck {
     return placement.kind == Kind::stretch || widest(placement) > kContinuum * part_.perimeter();
   }
 
-  /// Where contacts are known no better.
-  /// Within this arc length of a corner a contact may be at it.
+  /// Within this arc length of a corner a contact may be at it: contacts are known no better.
   double near(const Placement& placement) const {
     return kOverTolerance * observed_.length_error() + (is_of_many(placement) ? 0 : width_of(placement));
   }

@@ -59,8 +59,8 @@ void belief::require_weighable(const Noise& noise) {
   rollfix::require_valid(noise);
   if (noise.contact <= 0 && noise.angle <= 0) {
     throw InputError(
-        "noise: expected a standard deviation of the contact or of the angle above 0, found neither; give one of them "
-        "as well");
+        "noise: expected a standard deviation of the contact or of the angle above 0, found neither; give one "
+        "of them as well");
   }
   if (noise.angle > BeliefOptions::kMostAngle) {
     throw InputError(fmt::format(

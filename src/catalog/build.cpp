@@ -341,8 +341,8 @@ class CatalogWriter {
       asked.bind_text(0, name);
       if (!asked.step()) {
         throw InputError(
-            fmt::format("{}: there is no part '{}'; rollfix catalog list names them; nothing was taken "
-                        "out",
+            fmt::format("{}: there is no part '{}'; rollfix catalog list names them; "
+                        "nothing was taken out",
                         database_.path(), name));
       }
       const std::int64_t id = asked.whole(0);

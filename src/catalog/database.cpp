@@ -239,8 +239,8 @@ void require_own_tables(const Database& database) {
   Statement strange = database.prepare("SELECT name FROM sqlite_master WHERE type NOT IN ('table', 'index') LIMIT 1");
   if (strange.step()) {
     throw InputError(
-        fmt::format("{}: has a view or a trigger, '{}', which no catalog has: build it again from its "
-                    "sources",
+        fmt::format("{}: has a view or a trigger, '{}', which no catalog has: build it "
+                    "again from its sources",
                     database.path(), strange.bytes(0)));
   }
   // The tables as this program makes them, to compare with: by their text.

@@ -78,8 +78,8 @@ Likeness likeness_of(const TouchProblem& like, const std::vector<TouchTolerance>
   likeness.turn = kSameTurn;
   likeness.length = std::numeric_limits<double>::infinity();
   for (const TouchTolerance& one : tolerance) {
-    // One standard deviation: what is searched with is kTouchSigmas of them.
-    likeness.length = std::min(likeness.length, like.noise ? one.length / kTouchSigmas : one.length);
+    // One standard deviation: what is searched with is kPossibleSigmas of them.
+    likeness.length = std::min(likeness.length, like.noise ? one.length / kPossibleSigmas : one.length);
   }
   // All pairs of touches: the distance of two of them is what a touch measures of a part's size.
   for (const MeasuredTouch& one : like.touches) {

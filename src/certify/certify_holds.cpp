@@ -206,18 +206,18 @@ HeldErrors slacks_of(const HeldRows& rows, std::size_t finger) {
 /// turn.
 HeldWheel slacks_of(const HeldRows& rows, std::size_t number, double finger_place) {
   HeldWheel wheel = rows.wheels[number];
-  wheel.place = kTouchSigmas * (wheel.place + wheel.radius);
+  wheel.place = kPossibleSigmas * (wheel.place + wheel.radius);
   for (const HeldRow& row : rows.rows) {
     // What the wheel has turned since the first row, with a turn to spare.
     if (wheel.spin) {
       const double turned = std::abs(row.pins[number].spin - rows.rows.front().pins[number].spin) + kFullTurn;
       const HeldWheel& given = rows.wheels[number];
-      wheel.spin = std::max(*wheel.spin, kTouchSigmas * (*given.spin + given.radius / given.wheel_radius * turned));
+      wheel.spin = std::max(*wheel.spin, kPossibleSigmas * (*given.spin + given.radius / given.wheel_radius * turned));
     }
     // The line's ends are a finger's contact and a pin, each off by its own tolerance.
     if (wheel.line) {
       const double length = (row.pins[number].at - row.contacts[0].at).norm();
-      wheel.line = std::max(*wheel.line, std::min(std::numbers::pi, kTouchSigmas * *rows.wheels[number].line +
+      wheel.line = std::max(*wheel.line, std::min(std::numbers::pi, kPossibleSigmas * *rows.wheels[number].line +
                                                                         swing(finger_place + wheel.place, length)));
     }
   }

@@ -114,8 +114,8 @@ void require_certifiable(const TouchAnswer& answer) {
     const double angle = 0.5 * roll.searched.tolerance;
     if (angle >= kLeastAngle) continue;
     throw InputError(
-        fmt::format("a certificate of rolls: expected a `tolerance` of angles of at least {:.0e} rad, found {:.3g}: "
-                    "give LENGTH,ANGLE",
+        fmt::format("a certificate of rolls: expected a `tolerance` of angles of at least {:.0e} rad, "
+                    "found {:.3g}: give LENGTH,ANGLE",
                     2 * kLeastAngle, roll.searched.tolerance));
   }
 }

@@ -25,18 +25,18 @@ constexpr double kArcGrain = 1e-12;
 
 }  // namespace
 
-/// With noise kTouchSigmas standard deviations. Errors of the angle and of the place are added, not their squares,
+/// With noise kPossibleSigmas standard deviations. Errors of the angle and of the place are added, not their squares,
 /// which only widens the slack. A contact that is off by n along the finger turns the measured normal by n times the
 /// finger's curvature. What n turns the part's tangent by is not in `angle`: the arc is widened by `travel` instead.
 Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_noise) {
   if (!has_noise) return {errors.travel, errors.angle, errors.place};
-  // e stretches all that was travelled since the first row.
+  // The radius' share e stretches all that was travelled since the first row.
   const double travel = std::hypot(errors.travel, errors.stretch * contact.travelled);
   Slack slack;
-  slack.travel = kTouchSigmas * travel;
-  slack.angle = kTouchSigmas * (errors.angle + errors.travel * contact.finger_curvature);
+  slack.travel = kPossibleSigmas * travel;
+  slack.angle = kPossibleSigmas * (errors.angle + errors.travel * contact.finger_curvature);
   const double arm = errors.arm_share * errors.stretch + errors.angle;
-  slack.place = kTouchSigmas * (errors.place + arm * contact.lever.norm() + travel);
+  slack.place = kPossibleSigmas * (errors.place + arm * contact.lever.norm() + travel);
   return slack;
 }
 

@@ -30,8 +30,8 @@ void require_fingers(const HoldProblem& problem) {
   }
   if (count == 0) {
     refuse(
-        "expected a finger with skin, found wheels alone: where pins were says nothing of a part that may lie "
-        "anywhere; "
+        "expected a finger with skin, found wheels alone: where pins were says nothing of a part "
+        "that may lie anywhere; "
         "add the log of a finger with u and psi, as of a jaw");
   }
   if (problem.fingers.empty()) {
@@ -153,8 +153,8 @@ void require_noise(const HoldProblem& problem) {
                 "three and more fingers");
   if (noise.contact <= 0 && noise.angle <= 0) {
     refuse(
-        "expected a standard deviation of the contact or of the angle above 0, found neither; give noise with "
-        "contact=SD,angle=SD");
+        "expected a standard deviation of the contact or of the angle above 0, found neither; "
+        "give noise with contact=SD,angle=SD");
   }
   if (noise.angle > BeliefOptions::kMostAngle) {
     refuse(fmt::format("expected an angle's standard deviation of at most {} rad, found {}; degrees are written {}deg",

@@ -23,7 +23,7 @@ class FingersApart {
   FingersApart(const HoldProblem& problem, const HeldRows& rows);
 
   /// Whether two of them enter each other at some instant wherever on these arcs their first contacts are. With noise
-  /// arcs end at kTouchSigmas standard deviations.
+  /// arcs end at kPossibleSigmas standard deviations.
   bool must_overlap(const std::vector<Interval>& first_contacts) const;
 
  private:

@@ -135,7 +135,7 @@ class HoldWeighing {
       for (std::size_t k = 0; k < rows.fingers(); ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         // Only what overlaps all over the node's range is impossible.
-        const double off = kTouchSigmas * std::sqrt(node.covariance(i, i));
+        const double off = kPossibleSigmas * std::sqrt(node.covariance(i, i));
         arcs.push_back({node.state.unknowns(i) - off, node.state.unknowns(i) + off});
       }
       return !apart.must_overlap(arcs);

@@ -152,7 +152,7 @@ PinSearch::PinSearch(const HeldRows& rows, const std::vector<std::size_t>& insta
 
 /// In length. With noise of x or y and of the radius, added: on the safe side. Without noise the tolerance.
 double PinSearch::slack(std::size_t wheel) const {
-  return has_noise_ ? kTouchSigmas * (wheels_[wheel].place + wheels_[wheel].radius) : wheels_[wheel].place;
+  return has_noise_ ? kPossibleSigmas * (wheels_[wheel].place + wheels_[wheel].radius) : wheels_[wheel].place;
 }
 
 /// Beyond what follows from where the pin was: a wheel of another radius has turned otherwise.
@@ -161,7 +161,7 @@ double PinSearch::spin_slack(std::size_t wheel, std::size_t instant) const {
   if (!has_noise_) return *one.spin;
   // The error of the radius enters t / r by as much as the wheel has turned.
   const double turned = std::abs(pins_[instant][wheel].spin - pins_.front()[wheel].spin) + 2 * std::numbers::pi;
-  return kTouchSigmas * (*one.spin + one.radius / one.wheel_radius * turned);
+  return kPossibleSigmas * (*one.spin + one.radius / one.wheel_radius * turned);
 }
 
 /// `heading` is an arc modulo a turn; its middle is taken to the lap of the finger's own heading, as encoders need
@@ -213,7 +213,7 @@ bool PinSearch::keep_touching(const Question& question, double middle, double ha
   const double line_slack = !wheel.line ? 0
                             : off >= question.length
                                 ? std::numbers::pi
-                                : (has_noise_ ? kTouchSigmas : 1) * *wheel.line + std::asin(off / question.length);
+                                : (has_noise_ ? kPossibleSigmas : 1) * *wheel.line + std::asin(off / question.length);
   for (const PinStretch& one : *stretches) {
     if (wheel.line) {
       // Squeezed: C - q points along the wheel's outward normal, phi + Theta - pi / 2. Both q and C are measured in the

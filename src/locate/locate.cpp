@@ -53,8 +53,8 @@ constexpr double kMostFacing = 1e6;
 void require_enough(std::span<const Reading> readings, const LocateOptions& options) {
   if (readings.empty()) {
     throw InputError(
-        "expected at least one reading (length, turn), of two fingers two (length a, length b, turn), "
-        "found none");
+        "expected at least one reading (length, turn), of two fingers two (length a, length "
+        "b, turn), found none");
   }
   for (const Reading& reading : readings) {
     require_finite(reading);

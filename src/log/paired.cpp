@@ -114,8 +114,8 @@ void require_same_times(const Log& a, const Log& b) {
   for (std::size_t k = 0; k < both; ++k) {
     if (std::abs(a.time[k] - b.time[k]) <= slack) continue;
     throw InputError(
-        fmt::format("{} is at the time {} and {} at {}: expected the same times in both logs, row by row; resample one "
-                    "of them",
+        fmt::format("{} is at the time {} and {} at {}: expected the same times in both logs, row by row; "
+                    "resample one of them",
                     where(a, 0, k), a.time[k], where(b, 0, k), b.time[k]));
   }
 }

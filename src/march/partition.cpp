@@ -137,8 +137,8 @@ Result stationary_points(const March& march, double length) {
     if (refusal.reason() != Reason::continuum) throw;
     throw Refusal(Reason::continuum, refusal.where(),
                   fmt::format("march: expected a total curvature with isolated stationary points, found that of a roll "
-                              "by {:.17g} (without whole loops) to be constant from s = {:.17g} on; rollfix::locate "
-                              "handles it",
+                              "by {:.17g} (without whole loops) to be constant from s = {:.17g} "
+                              "on; rollfix::locate handles it",
                               length, refusal.where()));
   }
 }

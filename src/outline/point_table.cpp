@@ -305,8 +305,8 @@ class TableReader {
     const std::optional<Unit> unit = unit_named(stated);
     if (!unit || unit->dimension != Dimension::length || header.titles[header.y].unit != stated) {
       throw InputError(fmt::format(
-          "{}:{}: the header '{}' has x in '{}' and y in '{}', expected the same unit of "
-          "length: {}",
+          "{}:{}: the header '{}' has x in '{}' and y in '{}', expected the same "
+          "unit of length: {}",
           name_, number_, shown(line_), stated, header.titles[header.y].unit, unit_names(Dimension::length)));
     }
     result_.unit = unit->name;

@@ -233,8 +233,8 @@ bool Reach::contains(double s) const {
 Reach reach_of_disk(const Part& part, double radius, const ReachOptions& options) {
   if (!(radius > 0 && std::isfinite(radius))) {
     throw InputError(
-        fmt::format("reach: expected a disk whose radius is a finite number above 0, found {}: give it in the "
-                    "outline's unit",
+        fmt::format("reach: expected a disk whose radius is a finite number above 0, found {}: give it "
+                    "in the outline's unit",
                     radius));
   }
   require_not_lost(part, radius, "a disk with a radius", ": give it in the outline's unit");

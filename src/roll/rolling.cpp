@@ -111,8 +111,8 @@ void require_consistent(const FreePlan& plan) {
   }
   if (omegas == 2 && plan.part_rotation != 0) {
     throw InputError(
-        "expected the part's angular velocity by time together with the fingers', found a rotation, which goes with "
-        "distances");
+        "expected the part's angular velocity by time together with the fingers', found a rotation, "
+        "which goes with distances");
   }
   if (distances == 2 && plan.omega_part) {
     throw InputError(

@@ -279,12 +279,12 @@ void EvenTrack::refuse_tight(const Tightest& tightest) const {
         "where the curvature is {:.9g}: expected it above 0; choose a disk or another roll",
         part().name(), part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature));
   }
-  throw InputError(fmt::format(
-      "{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), where the curvature "
-      "is "
-      "{:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
-      part().name(), radius_, part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature,
-      -1 / tightest.curvature));
+  throw InputError(
+      fmt::format("{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), "
+                  "where the curvature is "
+                  "{:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
+                  part().name(), radius_, part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature,
+                  -1 / tightest.curvature));
 }
 
 /// Throws InputError: `turn` is the corner's, below 0, radians.

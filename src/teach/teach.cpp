@@ -85,8 +85,8 @@ class Notes {
   /// How the ends were joined, with what turn and gap are off and what drift allows of each.
   void tell_closing() {
     const std::string found = fmt::format(
-        "the turn is off {} x 360 deg by {:.3g} deg (drift allows {:.3g}), the end is {:.3g} from the start (drift "
-        "allows {:.3g})",
+        "the turn is off {} x 360 deg by {:.3g} deg (drift allows {:.3g}), the end is {:.3g} from the "
+        "start (drift allows {:.3g})",
         taught_.turns, taught_.turn_gap / kDegree, taught_.turn_allowed / kDegree, taught_.gap, taught_.gap_allowed);
     switch (taught_.closing) {
       case Closing::spread:
@@ -335,8 +335,8 @@ class Teacher {
     taught_.gap = gap_of(course_, lap_);
     if (goes_on_ || taught_.gap <= kNoGap * taught_.lap) {
       throw InputError(
-          fmt::format("{}: `bridge`: expected a roll that ends before its start, found one that {}; leave "
-                      "`bridge` out",
+          fmt::format("{}: `bridge`: expected a roll that ends before its start, found one that "
+                      "{}; leave `bridge` out",
                       roll_.log().name,
                       goes_on_ ? fmt::format("comes back to it after {:.6g} of {:.6g}", taught_.lap, taught_.rolled)
                                : "ends where it started"));

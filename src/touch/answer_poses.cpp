@@ -422,7 +422,7 @@ std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& c
   return extent;
 }
 
-/// kTouchSigmas of each node's own standard deviations.
+/// kPossibleSigmas of each node's own standard deviations.
 PoseExtent extent_of(const PoseMode& mode, const std::vector<PosteriorNode>& nodes, const Pose& about) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   PoseExtent extent;
@@ -432,7 +432,7 @@ PoseExtent extent_of(const PoseMode& mode, const std::vector<PosteriorNode>& nod
     const std::array<double, 3> at{pose.x, pose.y, about.heading + nearest_angle(pose.heading - about.heading)};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
-      const double slack = kTouchSigmas * std::sqrt(nodes[k].covariance(axis, axis));
+      const double slack = kPossibleSigmas * std::sqrt(nodes[k].covariance(axis, axis));
       extend(extent[i], at[i] - slack, at[i] + slack);
     }
   }

@@ -58,7 +58,7 @@ constexpr double kSurelyFree = 6;
 // than this share of what these poses differ by: what is missed is seen in halves of them.
 constexpr double kStepOfSpread = 0.25;
 
-/// Length: the largest tolerance of a place; with noise kTouchSigmas of the largest sd of a touch's place, or of the
+/// Length: the largest tolerance of a place; with noise kPossibleSigmas of the largest sd of a touch's place, or of the
 /// common one.
 double slack_of(const TouchProblem& problem, const std::vector<Measured>& contacts) {
   double most = 0;
@@ -68,7 +68,7 @@ double slack_of(const TouchProblem& problem, const std::vector<Measured>& contac
   if (!problem.noise) return most;
   double sd = problem.noise->position;
   for (const MeasuredTouch& touch : problem.touches) sd = std::max(sd, touch.position_sd.value_or(0));
-  return kTouchSigmas * sd;
+  return kPossibleSigmas * sd;
 }
 
 /// Where the finger's centre was as it met the part, or left it.
@@ -146,7 +146,7 @@ FreeSpace::FreeSpace(const TouchProblem& problem, const std::vector<Measured>& c
     : part_(problem.part), radius_(radius_of(problem)) {
   if (problem.clear.empty()) return;
   const double slack = slack_of(problem, contacts);
-  sd_ = problem.noise ? slack / kTouchSigmas : 0;
+  sd_ = problem.noise ? slack / kPossibleSigmas : 0;
   bound_ = radius_ - slack - kRoundingOfDistance * part_.diagonal();
   least_step_ = kLeastStep * slack;
   if (!problem.part.closed() && bound_ <= 0) return;  // such a path may as well have gone by

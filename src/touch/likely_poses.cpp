@@ -47,7 +47,7 @@ class Refit {
   Pose operator()(const Pose& pose) { return fit_.fit(pose).pose; }
 
  private:
-  /// Tolerances of the answer are kTouchSigmas standard deviations, as noise was stated.
+  /// Tolerances of the answer are kPossibleSigmas standard deviations, as noise was stated.
   static std::vector<Measured> measured_of(const TouchAnswer& answer, const TouchPose& set) {
     std::vector<Measured> touches;
     for (std::size_t k = 0; k < answer.touches.size(); ++k) {
@@ -59,8 +59,8 @@ class Refit {
       if (answer.touches[k].normal) one.tangent = *answer.touches[k].normal + 0.5 * std::numbers::pi;
       one.place_most = most.length;
       one.angle_most = most.angle;
-      if (one.has_place) one.place_unit = most.length / kTouchSigmas;
-      if (most.angle > 0) one.angle_unit = most.angle / kTouchSigmas;
+      if (one.has_place) one.place_unit = most.length / kPossibleSigmas;
+      if (most.angle > 0) one.angle_unit = most.angle / kPossibleSigmas;
       touches.push_back(one);
     }
     return touches;
@@ -137,7 +137,7 @@ std::vector<PathPlace> even_places(const CentrePath& path, std::size_t count, do
 class AfterOneTouch {
  public:
   explicit AfterOneTouch(const TouchAnswer& answer) : answer_(answer), path_(answer.part, answer.radius) {
-    const double share = answer.noise ? kTouchSigmas : 1;
+    const double share = answer.noise ? kPossibleSigmas : 1;
     place_sd_ = answer.tolerance.front().length / share;
     turn_sd_ = answer.tolerance.front().angle / share;
   }
@@ -191,8 +191,7 @@ class AfterOneTouch {
   double turn_sd_ = 0;
 };
 
-/// The question that was answered.
-/// As far as free space needs it: without rolls and prior.
+/// The question that was answered, as far as free space needs it: without rolls and prior.
 TouchProblem problem_of(const TouchAnswer& answer) {
   TouchProblem problem{answer.part, answer.touches};
   if (answer.radius > 0) problem.finger = disk(answer.radius);

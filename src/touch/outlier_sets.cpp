@@ -68,7 +68,7 @@ class Candidates {
   /// and one more where the others still fit nowhere together.
   void follow(const TouchPose& from) {
     TouchPose pose = from;
-    std::size_t count = std::min(beyond(pose, kTouchSigmas).size(), most_);
+    std::size_t count = std::min(beyond(pose, kPossibleSigmas).size(), most_);
     // `pose` is by the touches outside of the last set tried. `tried_` ends loops: no set is followed twice.
     for (;;) {
       Outliers outliers = beyond(pose, 0);
@@ -81,7 +81,7 @@ class Candidates {
         continue;
       }
       pose = std::move(answer.poses.front());
-      Outliers next = beyond(pose, kTouchSigmas);
+      Outliers next = beyond(pose, kPossibleSigmas);
       // More outliers than there is any chance of.
       if (next.size() > most_) return;
       std::sort(next.begin(), next.end());

@@ -17,7 +17,7 @@
 // What is refused, contacts alike, and the mirror. Notation:
 //   (x, y), n       a touch's centre and the outward normal in the world: `at`, `normal`; tau = n + pi/2 is the part's
 //                   tangent there: Measured::tangent
-//   unit, most      what residuals are divided by, and how far they may go: a standard deviation and kTouchSigmas of
+//   unit, most      what residuals are divided by, and how far they may go: a standard deviation and kPossibleSigmas of
 //                   it, of angles pi at most; without noise both are the tolerance
 //   M               the mirror (x, y) -> (-x, y): normals become pi - n, poses (X, Y, phi) become (-X, Y, -phi), their
 //                   covariances C become S C S with S = diag(-1, 1, -1)
@@ -110,8 +110,8 @@ void require_clear_beside_rolls(const TouchProblem& problem) {
                                       [](const Log& roll) { return !roll.fingers.front().x.empty(); });
   if (!any_centre) {
     refuse(
-        "`clear`: expected where the part is, found rolls without x and y, which tell its heading alone: give logs "
-        "with "
+        "`clear`: expected where the part is, found rolls without x and y, which tell its heading "
+        "alone: give logs with "
         "x and y, or a touch, or leave `clear` out");
   }
   if (problem.noise && !(problem.noise->position > 0)) {
@@ -154,8 +154,8 @@ void require_tolerance(const TouchProblem& problem) {
   if (!problem.tolerance && problem.touches.empty() && !problem.pose) return;  // the rolls' digits tell it
   if (!problem.tolerance) {
     refuse(
-        "expected how exact they are, found neither `noise` nor `tolerance`; standard deviations are given with "
-        "`noise` position=0.05,angle=1deg");
+        "expected how exact they are, found neither `noise` nor `tolerance`; standard deviations are "
+        "given with `noise` position=0.05,angle=1deg");
   }
   const TouchTolerance& tolerance = *problem.tolerance;
   const double most = problem.part.perimeter();
@@ -171,8 +171,8 @@ void require_tolerance(const TouchProblem& problem) {
   for (const MeasuredTouch& touch : problem.touches) {
     if (!touch.normal || (tolerance.angle > 0 && tolerance.angle <= kMostNormalTolerance)) continue;
     refuse(
-        fmt::format("expected a `tolerance` of the normals above 0 and at most {:.3g} rad, found {}; degrees are "
-                    "written 2deg",
+        fmt::format("expected a `tolerance` of the normals above 0 and at most {:.3g} rad, found {}; "
+                    "degrees are written 2deg",
                     kMostNormalTolerance, tolerance.angle));
   }
   // Without noise there is no likelihood to weigh a prior against.
@@ -255,8 +255,8 @@ void mirror(TouchPose& pose) {
 
 }  // namespace
 
-/// With noise units are standard deviations and tolerances kTouchSigmas of them, at most pi of an angle; without, both
-/// are the tolerances. Trees are set by AllContacts.
+/// With noise units are standard deviations and tolerances kPossibleSigmas of them, at most pi of an angle; without,
+/// both are the tolerances. Trees are set by AllContacts.
 std::vector<Measured> measured(const TouchProblem& problem) {
   std::vector<Measured> touches;
   for (const MeasuredTouch& touch : problem.touches) {
@@ -268,7 +268,7 @@ std::vector<Measured> measured(const TouchProblem& problem) {
     const Noise& noise = problem.noise ? *problem.noise : none;
     one.place_unit = problem.noise ? touch.position_sd.value_or(noise.position) : problem.tolerance->length;
     one.angle_unit = problem.noise ? touch.normal_sd.value_or(noise.angle) : problem.tolerance->angle;
-    const double most = problem.noise ? kTouchSigmas : 1;
+    const double most = problem.noise ? kPossibleSigmas : 1;
     // Without a place nothing is too far.
     one.place_most = one.has_place ? most * one.place_unit : std::numeric_limits<double>::infinity();
     one.angle_most = std::min(most * one.angle_unit, std::numbers::pi);

@@ -34,7 +34,7 @@ constexpr double kReference = 1e-6;
 // Places that differ by less are one: of the perimeter, and radians.
 constexpr double kSamePlace = 1e-9;
 
-// Three numbers together are beyond so many standard deviations as rarely as one is beyond kTouchSigmas.
+// Three numbers together are beyond so many standard deviations as rarely as one is beyond kPossibleSigmas.
 constexpr double kPoseSigmas = 5.2;
 
 /// p(s) + r n in the part's frame.
@@ -283,7 +283,7 @@ Eigen::Vector3d RollBelief::residual(const Pose& pose, const RollNode& node) con
 /// How dense the belief is does not count: the miss alone, after the slide within the node.
 double RollBelief::worst(const Pose& pose, const RollNode& node) const {
   const double miss = std::max(0.0, square(pose, node, true) + 2 * node.log_density);
-  return std::sqrt(miss) / (centre_ == RollCentre::unused ? kTouchSigmas : kPoseSigmas);
+  return std::sqrt(miss) / (centre_ == RollCentre::unused ? kPossibleSigmas : kPoseSigmas);
 }
 
 /// One Gauss-Newton step along the path, clamped to half the node's width. The residual is linear in u there.

@@ -204,7 +204,7 @@ void measure_first(const Log& log, const Finger& finger, double radius, Measured
 }
 
 /// With noise: an arc of each that holds what the nodes say, and the tolerance of the search beyond.
-/// The middle of all nodes' means and, beyond half their range, kTouchSigmas of the largest standard deviation: the
+/// The middle of all nodes' means and, beyond half their range, kPossibleSigmas of the largest standard deviation: the
 /// search holds every other node. Left out are nodes whose density is below exp(-kLeastDensity) of the largest.
 void measure_belief(const RollBelief& belief, Measured& measured) {
   Vec2 least(1e300, 1e300), most(-1e300, -1e300);
@@ -228,11 +228,11 @@ void measure_belief(const RollBelief& belief, Measured& measured) {
   }
   measured.tangent = about + 0.5 * (before + behind);
   measured.angle_unit = angle_sd;
-  measured.angle_most = std::min(kTouchSigmas * angle_sd + 0.5 * (behind - before), std::numbers::pi);
+  measured.angle_most = std::min(kPossibleSigmas * angle_sd + 0.5 * (behind - before), std::numbers::pi);
   if (!belief.has_place()) return;
   measured.at = 0.5 * (least + most);
   measured.place_unit = place_sd;
-  measured.place_most = kTouchSigmas * place_sd + 0.5 * (most - least).norm();
+  measured.place_most = kPossibleSigmas * place_sd + 0.5 * (most - least).norm();
 }
 
 /// How far centres may be off, as far as their digits show.
@@ -279,8 +279,8 @@ void measure_touch(const TouchProblem& problem, const Log& log, Measured& measur
     const double arm = centre_of(finger, Vec2::Zero(), first).norm();
     measured.place_unit = std::hypot(noise.position, noise.contact, arm * noise.angle);
   }
-  measured.angle_most = std::min(kTouchSigmas * measured.angle_unit, std::numbers::pi);
-  measured.place_most = kTouchSigmas * measured.place_unit;
+  measured.angle_most = std::min(kPossibleSigmas * measured.angle_unit, std::numbers::pi);
+  measured.place_most = kPossibleSigmas * measured.place_unit;
 }
 
 /// Of one row: it can be anywhere on the part.
@@ -304,7 +304,6 @@ RollContact touch_of(const TouchProblem& problem, const Log& log, RollCentre cen
   return contact;
 }
 
-/// To its arcs.
 /// Builds the path and the tree of a contact within its arcs.
 void confine(RollContact& contact, const Part& part, double radius) {
   contact.confined.arcs = merged(std::move(contact.confined.arcs), part.boundary());

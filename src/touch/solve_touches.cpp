@@ -15,7 +15,7 @@
 // Notation:
 //   contact      a roll's first one or a touch, rolls first: `contacts.each`; two of them are the `pair`
 //   cell         stretches of both contacts of the pair, and headings phi of the part: cell_search.hpp
-//   set          cells that hang together, cut level by level: pose_sets.hpp
+//   set          cells that hang together, cut level by level: pose_sets.cpp
 //   witness      without noise: a pose of the set with every residual within its tolerance
 //   weight       with noise: of a node of the posterior; a set's share of all weights is its probability
 //   log Z        `log_evidence`: likelihood of all contacts, averaged over poses and over where they can be
@@ -176,9 +176,8 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
   answer.comparisons = abandoned + search->comparisons();
 }
 
-/// Every touch counts.
-/// Chooses how to solve: one contact alone, one place with a prior, headings alone, or the search. REQUIRES a valid
-/// problem, as it is seen.
+/// The answer in which every touch counts. Chooses how to solve: one contact alone, one place with a prior, headings
+/// alone, or the search. REQUIRES a valid problem, as it is seen.
 void solve_counted(const TouchProblem& problem, TouchAnswer& answer) {
   AllContacts contacts(problem, answer.radius);
   for (const Measured& one : contacts.each) answer.tolerance.push_back({one.place_most, one.angle_most});

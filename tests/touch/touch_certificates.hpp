@@ -76,7 +76,7 @@ inline TouchProblem random_question(int kind, std::mt19937_64& generator, double
   if (uniform(generator, 0, 1) < 0.5) {
     problem.noise.reset();
     problem.tolerance =
-        rollfix::TouchTolerance{rollfix::kTouchSigmas * making.place_sd, rollfix::kTouchSigmas * making.angle_sd};
+        rollfix::TouchTolerance{rollfix::kPossibleSigmas * making.place_sd, rollfix::kPossibleSigmas * making.angle_sd};
   }
   problem.mirrored = uniform(generator, 0, 1) < 0.25;
   for (MeasuredTouch& touch : problem.touches) {

@@ -303,8 +303,8 @@ void require_owners(const std::vector<std::string>& typed, const std::vector<Fin
 
 std::string no_reach_note(const Finger& finger) {
   return fmt::format(
-      "whether the finger {} would hit the part elsewhere is not looked at: that is known of disks and "
-      "jaws only",
+      "whether the finger {} would hit the part elsewhere is not looked at: that is known of "
+      "disks and jaws only",
       finger.name());
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate_command.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -161,8 +161,8 @@ void add_log_notes(const Log& log, std::vector<std::string>& notes) {
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
   command
       .add_option("--log", logs,
-                  "a tactile log, - for stdin; for two fingers one file or two; `locate` takes one of each of three to "
-                  "eight, and "
+                  "a tactile log, - for stdin; for two fingers one file or two; `locate` takes one of each of "
+                  "three to eight, and "
                   "of a wheel, which has x and y of its pin, and psi where it has an encoder")
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -292,8 +292,8 @@ std::optional<Prior> read_prior(const std::string& text, const std::string& unit
   const std::vector<std::string_view> fields = split(text, ',');
   if (fields.size() != 2) {
     throw InputError(
-        fmt::format("--prior {}: expected S,SD: about where the finger started, along the stored outline, and its "
-                    "standard deviation{}",
+        fmt::format("--prior {}: expected S,SD: about where the finger started, along the stored outline, "
+                    "and its standard deviation{}",
                     text, fields.size() > 2 ? "; numbers take a decimal point, as in 0.5, not a comma" : ""));
   }
   const std::string what = "--prior " + text;

@@ -16,7 +16,6 @@
 #include "rollfix/draw.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/identify.hpp"
-#include "rollfix/locate/locate_command.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/program.hpp"
@@ -291,8 +290,8 @@ Report identify_report(const IdentifyArguments& arguments) {
   require_figure_output(arguments.output, arguments.json);
   if (has_wheel(arguments.roll)) {
     throw InputError(
-        "identify: a wheel without skin is taken beside a known part: ask rollfix locate of each part that it may be, "
-        "or "
+        "identify: a wheel without skin is taken beside a known part: ask rollfix locate of each part that "
+        "it may be, or "
         "give the logs of fingers with skin alone");
   }
   const Catalog catalog(arguments.catalog);

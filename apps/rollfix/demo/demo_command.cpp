@@ -231,8 +231,8 @@ void perform(const OneFinger& story, Stage& stage) {
   after.numbers = numbers_of(answers[1], answers[0]);
   stage.keep(story.stem, side_by_side({before, after}));
   stage.say(
-      fmt::format("The one that is left is a{} of the roll to b. The simulated finger did start there, at s = "
-                  "{}.\n",
+      fmt::format("The one that is left is a{} of the roll to b. The simulated finger did start there, "
+                  "at s = {}.\n",
                   truth.value(), story.start));
 }
 

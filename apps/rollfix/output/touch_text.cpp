@@ -372,7 +372,7 @@ class TouchText {
     const std::string rejected = counted(answer_.improbable, "pose", "poses");
     if (answer_.improbable > 0 && answer_.poses.empty()) {
       text += fmt::format("rejected   {} in which a touch is off by more than {:.2g} standard deviations\n", rejected,
-                          kTouchSigmas);
+                          kPossibleSigmas);
     } else if (answer_.improbable > 0) {
       text += fmt::format("rejected   {} that fit far worse, together less than {:.1g} % probable\n", rejected,
                           std::max(1e-4, 110 * (answer_.rest - answer_.anywhere)));

@@ -222,8 +222,8 @@ void add_plan_arguments(CLI::App& command, PlanArguments& arguments) {
       ->type_name("ANGLE");
   command
       .add_option("--stays", arguments.stays,
-                  "what stays in place: finger a, finger b, or the origin of the part; default: the middle between "
-                  "both fingers")
+                  "what stays in place: finger a, finger b, or the origin of the part; default: the "
+                  "middle between both fingers")
       ->type_name("a|b|part");
   add_repeated_option(command, "--contact-angle", arguments.contact_angles, "ANGLE",
                       "where on a disk the first contact is; default 0; once for both fingers or for each");

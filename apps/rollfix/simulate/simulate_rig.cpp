@@ -41,8 +41,8 @@ void require_rig(const SimulateArguments& arguments) {
   }
   if (arguments.pin.empty()) {
     throw InputError(arguments.squeeze ? "simulate: expected --pin DX, how far the pin moves along the jaw, found none"
-                                       : "simulate: expected --pin DX,DY, how far the pin moves in the jaw's frame, "
-                                         "found none");
+                                       : "simulate: expected --pin DX,DY, how far the pin moves in the "
+                                         "jaw's frame, found none");
   }
   const std::size_t starts = arguments.starts.size();
   if (starts != 2 && !(arguments.squeeze && starts == 1)) {

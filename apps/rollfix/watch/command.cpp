@@ -23,11 +23,11 @@ namespace rollfix::app {
 namespace {
 
 constexpr const char* kExamples =
-    "A finger rolls, or two, the log grows, and this says where it is as soon as that changes. The log is read from a "
-    "pipe, "
+    "A finger rolls, or two, the log grows, and this says where it is as soon as that changes. The log is "
+    "read from a pipe, "
     "from "
-    "a file that is being written, from a serial device, or from a TCP server; Ctrl-C ends it with a summary. --noise "
-    "is "
+    "a file that is being written, from a serial device, or from a TCP server; Ctrl-C ends it with "
+    "a summary. --noise is "
     "needed: how sure an answer is follows from it. Exit code 0: something fits in the end; 1: nothing does.\n"
     R"(
 Examples:
@@ -100,8 +100,8 @@ std::vector<std::string> log_names(const WatchArguments& arguments) {
   if (!logs.empty()) return logs;
   if (::isatty(STDIN_FILENO) == 1) {
     throw InputError(
-        "watch: expected --log FILE, --log /dev/ttyUSB0 or --log tcp:HOST:PORT, or a log piped in; to type one, --log "
-        "-");
+        "watch: expected --log FILE, --log /dev/ttyUSB0 or --log tcp:HOST:PORT, or a log piped in; to "
+        "type one, --log -");
   }
   return {"-"};
 }
@@ -139,8 +139,8 @@ void read_fingers_and_wheel(const WatchArguments& arguments, std::size_t logs, c
   }
   if (with_skin.size() != 2 || wheel == with_skin.begin() || logs != 2) {
     throw InputError(fmt::format(
-        "--finger {}: watch takes one finger with skin and behind it one wheel, with a log of each in the same order, "
-        "as "
+        "--finger {}: watch takes one finger with skin and behind it one wheel, with a log of each in "
+        "the same order, as "
         "in --finger jaw --finger wheel,r=0.4 --log jaw.csv --log pin.csv; more of them are for rollfix locate, when "
         "they have rolled",
         *wheel));

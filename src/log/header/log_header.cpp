@@ -384,16 +384,16 @@ void HeaderReader::refuse(const Columns& columns) const {
     const bool is_of_one = !holds_columns_of(names_, is_a ? 0 : 1);
     const std::string of_one = fmt::format("; of one finger alone say `columns` {} (the header has {})",
                                            suggested_columns(names_, {}), all_names());
-    throw InputError(fmt::format(
-        "{} has columns of finger {} but none of finger {}, expected the same of both, such as 'u_a', 'psi_a', 'u_b' "
-        "and 'psi_b'{}{}",
-        start(), is_a ? 'b' : 'a', is_a ? 'a' : 'b', is_of_one ? "" : hint(columns),
-        is_of_one ? of_one : cure(columns)));
+    throw InputError(
+        fmt::format("{} has columns of finger {} but none of finger {}, expected the same of both, such as 'u_a', "
+                    "'psi_a', 'u_b' and 'psi_b'{}{}",
+                    start(), is_a ? 'b' : 'a', is_a ? 'a' : 'b', is_of_one ? "" : hint(columns),
+                    is_of_one ? of_one : cure(columns)));
   }
   const bool is_wheels = columns.has(Column::x) && columns.has(Column::y);
   throw InputError(fmt::format(
-      "{} does not say what the columns are, expected {}{}{}{}. Known are: {}; of two fingers with _a and _b behind "
-      "them",
+      "{} does not say what the columns are, expected {}{}{}{}. Known are: {}; of two fingers with _a "
+      "and _b behind them",
       start(), kExpected, hint(columns), cure(columns), is_wheels ? kOfWheel : "", fmt::join(kColumnNames, ", ")));
 }
 

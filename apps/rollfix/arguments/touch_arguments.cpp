@@ -1,4 +1,4 @@
-#include "rollfix/locate/locate_command.hpp"
+#include "rollfix/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "rollfix/arguments/arguments.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/touch.hpp"
 #include "text/text.hpp"
@@ -140,8 +139,8 @@ void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, R
       ->allow_extra_args(false);
   command
       .add_option("--clear", arguments.clear,
-                  "of touches and several rolls: where the finger's centre went straight from one place to another and "
-                  "felt nothing; "
+                  "of touches and several rolls: where the finger's centre went straight from one place to "
+                  "another and felt nothing; "
                   "repeatable; rows: between the rows of the log with contact 0, and from them to the next contact")
       ->type_name("X,Y,X,Y|rows")
       ->allow_extra_args(false);
