@@ -138,7 +138,7 @@ TEST(Nodes, there_are_forty_for_a_lap_where_slip_shows_and_two_dozen_for_less) {
   EXPECT_NEAR(static_cast<double>(nodes_of(20000, 0.4, 0.05)), 24, 4);
 }
 
-TEST(Nodes, there_are_more_on_a_boundary_that_turns_to_and_fro) {
+TEST(Nodes, there_are_more_on_a_boundary_that_turns_either_way) {
   EXPECT_EQ(nodes_of(20000, 2, 0.05, 3), nodes_of(20000, 2, 0.05));
   EXPECT_NEAR(static_cast<double>(nodes_of(20000, 2, 0.05, 8)), 4 * 80, 48);
   EXPECT_GE(nodes_of(20000, 2, 0.05, 30), rollfix::belief::kMostNodes / 2);

@@ -56,7 +56,7 @@ class Diagnostician {
   std::vector<Diagnosis> diagnoses() {
     try_noise();
     if (problem_.prior || problem_.pose) try_prior();
-    try_slips_of_the_pen();
+    try_column_mistakes();
     try_swapped_fingers();
     try_scale();
     if (is_of_two()) {
@@ -121,10 +121,10 @@ class Diagnostician {
   }
 
   /// Units, signs and names of columns; and a part that lies face down.
-  void try_slips_of_the_pen() {
-    for (const SlipOfThePen& slip : slips_of_the_pen(problem_.measured)) {
-      // A problem of readings has lengths and turns only: `slips_of_the_pen` lists what those can have.
-      take(slip.cause, without(slip, problem_), slip.log_stretch, slip.left_of_roll);
+  void try_column_mistakes() {
+    for (const ColumnMistake& mistake : column_mistakes(problem_.measured)) {
+      // A problem of readings has lengths and turns only: `column_mistakes` lists what those can have.
+      take(mistake.cause, without(mistake, problem_), mistake.log_stretch, mistake.left_of_roll);
     }
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
     const bool of_contact = problem_.measured.is_log() && problem_.measured.log->kind == LogKind::contact;

@@ -177,7 +177,7 @@ std::vector<ColumnSource> columns_without(Cause cause, const Log& log);
 bool says_degrees(const std::vector<FingerRows>& fingers, std::string_view column);
 
 /// A mistake in how the columns of a log are read: a unit, a sign, a name.
-struct SlipOfThePen {
+struct ColumnMistake {
   Cause cause;
   std::function<void(FingerRows&)> mend;
   double log_stretch = 0;  // by how much the numbers of a row grow, and their density with them: the logarithm of it
@@ -186,10 +186,10 @@ struct SlipOfThePen {
 };
 
 /// The mistakes that are possible in these measurements.
-std::vector<SlipOfThePen> slips_of_the_pen(const Measurement& measured);
+std::vector<ColumnMistake> column_mistakes(const Measurement& measured);
 
 /// The problem as it is without that mistake.
-Problem without(const SlipOfThePen& slip, const Problem& problem);
+Problem without(const ColumnMistake& mistake, const Problem& problem);
 
 // Rows that trials are compared by, before all are looked at.
 inline constexpr std::size_t kRowsToCompare = 48;

@@ -40,7 +40,7 @@ std::size_t points_of(std::size_t given, const TiltedBoundary& boundary, const P
 
 Locator::LogBelief::LogBelief(Locator& locator)
     : nodes(locator.errors_, locator.boundary_.tilt(), false, most_nodes(locator.part_), true,
-            turns_to_and_fro(locator.part_), &locator.pool_),
+            turns_either_way(locator.part_), &locator.pool_),
       grid(locator.boundary_, locator.errors_, locator.options_, locator.part_.boundary(),
            corner_length(0, locator.part_), nullptr, &locator.pool_, locator.points_),
       modes(&locator.pool_) {}

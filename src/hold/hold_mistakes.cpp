@@ -135,7 +135,7 @@ class Mistakes {
     try_noise();
     try_prior();
     try_mirror();
-    for (const auto& all : {without_slips_of_the_pen(problem_), without_exchanged_axes(problem_),
+    for (const auto& all : {without_column_mistakes(problem_), without_exchanged_axes(problem_),
                             without_units(problem_), without_swaps(problem_)}) {
       for (const Mended& one : all) take(one.what, one.problem, one.log_stretch);
     }

@@ -159,7 +159,7 @@ std::vector<std::string> leave_out_jumps(const HoldProblem& problem, std::vector
 }
 
 /// Each mistake for all logs of fingers, where no wheel is beside, and for each alone; of encoders psi alone.
-std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
+std::vector<Mended> without_column_mistakes(const HoldProblem& problem) {
   const std::vector<RowColumn> u{&FingerRows::u}, psi{&FingerRows::psi}, both{&FingerRows::u, &FingerRows::psi};
   std::vector<Mended> all;
   // `log_stretch`: 0 where only the sign changes, or where what counts keeps its unit.

@@ -230,7 +230,7 @@ struct Mended {
 };
 
 /// Angles that count the other way or are in degrees, u and psi exchanged.
-std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem);
+std::vector<Mended> without_column_mistakes(const HoldProblem& problem);
 /// x and y exchanged.
 std::vector<Mended> without_exchanged_axes(const HoldProblem& problem);
 /// x and y in another unit.

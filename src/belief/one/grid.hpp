@@ -78,9 +78,9 @@ class PointScorer {
 
  private:
   RollFilter fresh_filter(const TiltedArc& arc, double w) const;
-  Errand first_errand(GridPoint& point, const Nodes& nodes) const;
+  Task first_task(GridPoint& point, const Nodes& nodes) const;
   /// After another one; false: the point is scored.
-  bool next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending);
+  bool next_task(Task& task, const Nodes& nodes, const std::optional<Node>& pending);
   void score(GridPoint& point, const Nodes& nodes);
   bool has_narrow_prior() const;
   /// The prior is one sample more: what it adds.
@@ -146,7 +146,7 @@ TiltedBoundary tilted(const Part& part, const ErrorModel& errors, double curvatu
 /// As many nodes of a roll as the boundary turns, to and fro, more than once around.
 std::size_t most_nodes(const Part& part);
 /// How many times as much as around a circle a boundary turns, to and fro, corners apart.
-double turns_to_and_fro(const Part& part);
+double turns_either_way(const Part& part);
 
 /// The first points that a grid on this boundary begins with, at most.
 std::size_t most_first_points(const TiltedBoundary& boundary);

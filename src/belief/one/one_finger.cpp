@@ -16,7 +16,7 @@
 namespace rollfix::belief {
 
 /// The sum of |turn| of all spirals over 2 pi: 1 of a convex loop without corners. Corners are left out.
-double turns_to_and_fro(const Part& part) {
+double turns_either_way(const Part& part) {
   double turned = 0;
   for (const Spiral& spiral : part.turning().spirals()) turned += std::abs(spiral.end.angle - spiral.start.angle);
   return turned / (2 * std::numbers::pi);
@@ -24,7 +24,7 @@ double turns_to_and_fro(const Part& part) {
 
 /// kMostNodes, times how often the boundary turns, up to kMostFiner.
 std::size_t most_nodes(const Part& part) {
-  const double finer = std::clamp(turns_to_and_fro(part), 1.0, kMostFiner);
+  const double finer = std::clamp(turns_either_way(part), 1.0, kMostFiner);
   return static_cast<std::size_t>(finer * static_cast<double>(kMostNodes));
 }
 
@@ -58,7 +58,7 @@ struct OneFingersGrid {
         centres(model(part, first)),
         boundary(tilted(part, errors, curvature)),
         nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part)), !options.by_rows,
-              turns_to_and_fro(part)),
+              turns_either_way(part)),
         grid(boundary, errors, options, part.boundary(), corner_length(curvature, part), has_first ? &centres : nullptr,
              std::pmr::get_default_resource(), options.by_rows ? kMostPointsToWeigh : kMostPoints) {}
   OneFingersGrid(const OneFingersGrid&) = delete;

@@ -96,16 +96,16 @@ void PointScorer::refresh(std::span<GridPoint* const> points, const Nodes& nodes
   const std::optional<Node> pending = nodes.pending();
   auto next = points.begin();
   // First what is left of a lane's own point, then the next point that is stale or of nodes that are no more.
-  const auto next_of_all = [&](Errand& errand) {
-    if (errand.point != nullptr && next_errand(errand, nodes, pending)) return true;
+  const auto next_of_all = [&](Task& task) {
+    if (task.point != nullptr && next_task(task, nodes, pending)) return true;
     for (; next != points.end(); ++next) {
       if (!is_stale(**next, nodes) && (*next)->generation == nodes.generation()) continue;
-      errand = first_errand(**next++, nodes);
+      task = first_task(**next++, nodes);
       return true;
     }
     return false;
   };
-  run_errands(std::ref(next_of_all), equations(), limit_, outliers_);
+  run_tasks(std::ref(next_of_all), equations(), limit_, outliers_);
 }
 
 void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const Nodes& nodes) {
@@ -115,13 +115,13 @@ void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const
   for (const GridPoint* point : points) filters.push_back(fresh_filter(*point->filter.arc(), point->filter.w()));
   // All take the trial nodes, however far off they are: only their order matters.
   std::size_t begun = 0;
-  const auto next = [&](Errand& errand) {
+  const auto next = [&](Task& task) {
     if (begun == filters.size()) return false;
-    errand = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
+    task = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
     ++begun;
     return true;
   };
-  run_errands(std::ref(next), equations(), limit_, outliers_);
+  run_tasks(std::ref(next), equations(), limit_, outliers_);
   std::pmr::vector<std::size_t> order(points.size(), memory_);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -133,7 +133,7 @@ void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const
 }
 
 /// The complete nodes that the point has not taken. One of an older generation begins anew.
-Errand PointScorer::first_errand(GridPoint& point, const Nodes& nodes) const {
+Task PointScorer::first_task(GridPoint& point, const Nodes& nodes) const {
   if (point.generation != nodes.generation()) {
     point = make(*point.filter.arc(), point.filter.w());
     point.generation = nodes.generation();
@@ -142,35 +142,35 @@ Errand PointScorer::first_errand(GridPoint& point, const Nodes& nodes) const {
   return {&point, 1, &point.filter, complete.data() + point.taken, complete.data() + complete.size()};
 }
 
-bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending) {
-  GridPoint& point = *errand.point;
+bool PointScorer::next_task(Task& task, const Nodes& nodes, const std::optional<Node>& pending) {
+  GridPoint& point = *task.point;
   const std::pmr::vector<Node>& complete = nodes.complete();
   const Node* last = complete.data() + complete.size();
   // The complete nodes are over: `filter` stays as it is for the rows to come, and `now` goes on from it.
-  if (errand.filter == &point.filter) {
-    point.taken = static_cast<std::size_t>(errand.next - complete.data());
+  if (task.filter == &point.filter) {
+    point.taken = static_cast<std::size_t>(task.next - complete.data());
     point.now = point.filter;
     point.score = score_of(point.now);
     point.deviance = point.score.cost + point.score.log_volume;
     point.rows = static_cast<std::size_t>(-1);
     // It stopped beyond the limit: stale, with a deviance that is a bound.
-    if (errand.next != last) return false;
+    if (task.next != last) return false;
   }
   // What follows is few rows or a pass that must be whole to count.
-  errand.filter = &point.now;
-  errand.whole = true;
+  task.filter = &point.now;
+  task.whole = true;
   // The node that is still filling is taken last, by `now` alone.
-  if (pending && errand.end == last) {
-    errand.next = &*pending;
-    errand.end = errand.next + 1;
+  if (pending && task.end == last) {
+    task.next = &*pending;
+    task.end = task.next + 1;
     return true;
   }
   // Wide angles: all nodes once more, about what this pass has found.
-  if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn, errand.end[-1].seconds)) {
-    ++errand.pass;
+  if (errors_.is_wide() && task.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn, task.end[-1].seconds)) {
+    ++task.pass;
     point.now = point.now.again(errors_.start(), memory_);
-    errand.next = complete.data();
-    errand.end = last;
+    task.next = complete.data();
+    task.end = last;
     return true;
   }
   score(point, nodes);
@@ -214,14 +214,14 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::option
                0, nodes.generation(), Innovations{in(memory_), in(memory_), in(memory_)}});
     traced->filter.record_to(traced->innovations);
   }
-  // One errand, whole, by itself.
+  // One task, whole, by itself.
   const auto take = [&](RollFilter& filter, const Node* from, const Node* end) {
     bool is_begun = false;
-    const auto once = [&](Errand& errand) {
-      errand = {nullptr, 1, &filter, from, end, true};
+    const auto once = [&](Task& task) {
+      task = {nullptr, 1, &filter, from, end, true};
       return !std::exchange(is_begun, true) && from != end;
     };
-    run_errands(std::ref(once), equations(), limit_, outliers_);
+    run_tasks(std::ref(once), equations(), limit_, outliers_);
   };
   const std::pmr::vector<Node>& complete = nodes.complete();
   take(traced->filter, complete.data() + traced->taken, complete.data() + complete.size());

@@ -35,19 +35,19 @@ using Four = Eigen::Array<double, kLanes, 1>;
 template <int Errors>
 class SideBySide {
  public:
-  SideBySide(const NextErrand& next, const double& limit, const Outliers& outliers)
+  SideBySide(const NextTask& next, const double& limit, const Outliers& outliers)
       : next_(next), limit_(limit), outliers_(outliers) {}
 
   void run() {
-    // Each turn of the loop takes one node in every lane. A lane whose errand is over gets the next one at once.
+    // Each turn of the loop takes one node in every lane. A lane whose task is over gets the next one at once.
     for (std::size_t lane = 0; lane < kLanes; ++lane) begin(lane);
     while (busy_ > 0) {
       take_nodes();
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        Errand& errand = errands_[lane];
-        if (errand.filter == nullptr) continue;
-        ++errand.next;
-        if (!is_over(errand, cost_[at(lane)] + log_volume_[at(lane)] > limit_)) continue;
+        Task& task = errands_[lane];
+        if (task.filter == nullptr) continue;
+        ++task.next;
+        if (!is_over(task, cost_[at(lane)] + log_volume_[at(lane)] > limit_)) continue;
         save(lane);
         --busy_;
         begin(lane);
@@ -118,22 +118,20 @@ class SideBySide {
   // Eigen counts with signed numbers.
   static Eigen::Index at(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
-  /// Gives a lane its next errand that has nodes to take; an empty one where there is none.
+  /// Gives a lane its next task that has nodes to take; an empty one where there is none.
   void begin(std::size_t lane) {
     beat();
-    Errand& errand = errands_[lane];
-    while (next_(errand)) {
-      if (is_over(errand, errand.filter->is_beyond(limit_))) continue;
+    Task& task = errands_[lane];
+    while (next_(task)) {
+      if (is_over(task, task.filter->is_beyond(limit_))) continue;
       ++busy_;
       load(lane);
       return;
     }
-    errand = {};
+    task = {};
   }
-  /// All nodes are taken, or the deviance is beyond what can matter and the errand need not be whole.
-  static bool is_over(const Errand& errand, bool is_beyond) {
-    return errand.next == errand.end || (is_beyond && !errand.whole);
-  }
+  /// All nodes are taken, or the deviance is beyond what can matter and the task need not be whole.
+  static bool is_over(const Task& task, bool is_beyond) { return task.next == task.end || (is_beyond && !task.whole); }
 
   /// Every number of a filter, next to where the lanes have it.
   template <class Copy>
@@ -206,7 +204,7 @@ class SideBySide {
   Uncertain open_of(const Rolled& rolled, const LinearisedAt& about, const Uncertain& so_far) const;
   /// Adds variances to the offsets in P, and to G.
   void gather(const Four& length, const Four& turn);
-  /// s(w) as a line about w in one lane. A lane without errand gets none.
+  /// s(w) as a line about w in one lane. A lane without task gets none.
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
   /// One node in every lane.
   void take_nodes();
@@ -215,13 +213,13 @@ class SideBySide {
   /// Kalman's correction of x, P, G and of what is summed for the likelihood.
   void correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain);
 
-  const NextErrand& next_;
+  const NextTask& next_;
   const double& limit_;  // of the deviance; it may fall while the lanes run
   const Outliers& outliers_;
-  std::array<Errand, kLanes> errands_;
-  std::size_t busy_ = 0;  // lanes with an errand
+  std::array<Task, kLanes> errands_;
+  std::size_t busy_ = 0;  // lanes with an task
   double tilt_ = 0;
-  // Lanes without an errand go on with these: they only have to stay finite.
+  // Lanes without an task go on with these: they only have to stay finite.
   PerError x_ = all(0), dx_ = x_, most_ = all(1);  // most_: bounds on |x| of scales and bias
   Covariance p_ = Covariance::none();
   Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
@@ -236,7 +234,7 @@ class SideBySide {
 
 template <int Errors>
 typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
-  // A lane without errand takes this: variances above 0 keep all its numbers finite.
+  // A lane without task takes this: variances above 0 keep all its numbers finite.
   static const Node kNone{0, 0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -501,13 +499,13 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
 
 /// Rows with centres have three equations and are taken one filter at a time. Others run side by side, with no more
 /// shared errors than the log has.
-void run_errands(const NextErrand& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
+void run_tasks(const NextTask& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
   if (!equations.centres && equations.bias) return SideBySide<kRolling>(next, limit, outliers).run();
   if (!equations.centres && equations.gyroscope_scale) return SideBySide<kWithoutBias>(next, limit, outliers).run();
   if (!equations.centres) return SideBySide<kWithoutGyroscope>(next, limit, outliers).run();
-  for (Errand errand; next(errand);) {
-    const auto goes_on = [&] { return errand.whole || !errand.filter->is_beyond(limit); };
-    for (; errand.next != errand.end && goes_on(); ++errand.next) errand.filter->update(*errand.next, outliers);
+  for (Task task; next(task);) {
+    const auto goes_on = [&] { return task.whole || !task.filter->is_beyond(limit); };
+    for (; task.next != task.end && goes_on(); ++task.next) task.filter->update(*task.next, outliers);
   }
 }
 

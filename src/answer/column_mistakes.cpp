@@ -95,7 +95,7 @@ std::vector<ColumnSource> columns_without(Cause cause, const Log& log) {
 namespace {
 
 /// `power`: 1 for degrees that were taken for radians, -1 for radians that were taken for degrees.
-SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<RowColumn>& columns) {
+ColumnMistake in_other_angles(Cause cause, int power, const std::vector<RowColumn>& columns) {
   // What the numbers have to be multiplied by.
   const double factor = power > 0 ? kDegree : 1 / kDegree;
   const auto mend = [factor, columns](FingerRows& rows) { multiply(rows, columns, factor); };
@@ -104,85 +104,85 @@ SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<RowColumn
 
 /// Degrees that were read as radians. Mending shortens the roll 57 times: `left_of_roll` is what is left, the largest
 /// range of any of the columns.
-SlipOfThePen in_degrees(Cause cause, const std::vector<RowColumn>& columns, const std::vector<FingerRows>& fingers) {
-  SlipOfThePen slip = in_other_angles(cause, 1, columns);
+ColumnMistake in_degrees(Cause cause, const std::vector<RowColumn>& columns, const std::vector<FingerRows>& fingers) {
+  ColumnMistake mistake = in_other_angles(cause, 1, columns);
   // Readings: nothing says how far the columns go.
-  if (fingers.empty()) return slip;
-  slip.left_of_roll = 0;
+  if (fingers.empty()) return mistake;
+  mistake.left_of_roll = 0;
   for (const FingerRows& rows : fingers) {
     for (const RowColumn column : columns) {
-      slip.left_of_roll = std::max(slip.left_of_roll, kDegree * range_of(rows.*column));
+      mistake.left_of_roll = std::max(mistake.left_of_roll, kDegree * range_of(rows.*column));
     }
   }
-  return slip;
+  return mistake;
 }
 /// Radians that were read as degrees.
-SlipOfThePen in_radians(Cause cause, const std::vector<RowColumn>& columns) {
+ColumnMistake in_radians(Cause cause, const std::vector<RowColumn>& columns) {
   return in_other_angles(cause, -1, columns);
 }
 
 /// Other signs; the density of the numbers stays.
-SlipOfThePen the_other_way(Cause cause, const std::vector<RowColumn>& columns) {
+ColumnMistake the_other_way(Cause cause, const std::vector<RowColumn>& columns) {
   return {cause, [columns](FingerRows& rows) { multiply(rows, columns, -1); }};
 }
 
 /// The mistakes in a log of u and psi, the more common ones first. Radians are only tried where degrees were stated.
-std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& fingers) {
+std::vector<ColumnMistake> mistakes_in_contacts(const std::vector<FingerRows>& fingers) {
   constexpr RowColumn u = &FingerRows::u;
   constexpr RowColumn psi = &FingerRows::psi;
-  std::vector<SlipOfThePen> slips = {{Cause::u_psi_swapped, swap_u_and_psi},
-                                     the_other_way(Cause::both_clockwise, {u, psi}),
-                                     the_other_way(Cause::u_clockwise, {u}),
-                                     the_other_way(Cause::psi_clockwise, {psi}),
-                                     in_degrees(Cause::u_degrees, {u}, fingers),
-                                     in_degrees(Cause::psi_degrees, {psi}, fingers),
-                                     in_degrees(Cause::angles_degrees, {u, psi}, fingers)};
+  std::vector<ColumnMistake> mistakes = {{Cause::u_psi_swapped, swap_u_and_psi},
+                                         the_other_way(Cause::both_clockwise, {u, psi}),
+                                         the_other_way(Cause::u_clockwise, {u}),
+                                         the_other_way(Cause::psi_clockwise, {psi}),
+                                         in_degrees(Cause::u_degrees, {u}, fingers),
+                                         in_degrees(Cause::psi_degrees, {psi}, fingers),
+                                         in_degrees(Cause::angles_degrees, {u, psi}, fingers)};
   const bool u_may_be = says_degrees(fingers, "u");
   const bool psi_may_be = says_degrees(fingers, "psi");
-  if (u_may_be) slips.push_back(in_radians(Cause::u_radians, {u}));
-  if (psi_may_be) slips.push_back(in_radians(Cause::psi_radians, {psi}));
-  if (u_may_be && psi_may_be) slips.push_back(in_radians(Cause::angles_radians, {u, psi}));
-  return slips;
+  if (u_may_be) mistakes.push_back(in_radians(Cause::u_radians, {u}));
+  if (psi_may_be) mistakes.push_back(in_radians(Cause::psi_radians, {psi}));
+  if (u_may_be && psi_may_be) mistakes.push_back(in_radians(Cause::angles_radians, {u, psi}));
+  return mistakes;
 }
 
 /// The mistakes in lengths and turns, of a log or of readings.
-std::vector<SlipOfThePen> slips_of_courses(const std::vector<FingerRows>& fingers) {
+std::vector<ColumnMistake> mistakes_in_courses(const std::vector<FingerRows>& fingers) {
   constexpr RowColumn length = &FingerRows::length;
   constexpr RowColumn turn = &FingerRows::turn;
-  std::vector<SlipOfThePen> slips = {
+  std::vector<ColumnMistake> mistakes = {
       the_other_way(Cause::both_clockwise, {length, turn}), the_other_way(Cause::length_backwards, {length}),
       the_other_way(Cause::turn_clockwise, {turn}), in_degrees(Cause::turn_degrees, {turn}, fingers)};
   if (says_degrees(fingers, "turn") || says_degrees(fingers, "dturn")) {
-    slips.push_back(in_radians(Cause::turn_radians, {turn}));
+    mistakes.push_back(in_radians(Cause::turn_radians, {turn}));
   }
-  return slips;
+  return mistakes;
 }
 
 /// A reading as one row: so the same function mends logs and readings.
-void mend(const SlipOfThePen& slip, Reading& reading) {
+void mend(const ColumnMistake& mistake, Reading& reading) {
   FingerRows rows;
   rows.length = {reading.length.begin(), reading.length.end()};
   rows.turn = {reading.turn};
-  slip.mend(rows);
+  mistake.mend(rows);
   std::copy(rows.length.begin(), rows.length.end(), reading.length.begin());
   reading.turn = rows.turn.front();
 }
 
 }  // namespace
 
-std::vector<SlipOfThePen> slips_of_the_pen(const Measurement& measured) {
-  if (!measured.is_log()) return slips_of_courses({});
-  return measured.log->kind == LogKind::contact ? slips_of_contacts(measured.log->fingers)
-                                                : slips_of_courses(measured.log->fingers);
+std::vector<ColumnMistake> column_mistakes(const Measurement& measured) {
+  if (!measured.is_log()) return mistakes_in_courses({});
+  return measured.log->kind == LogKind::contact ? mistakes_in_contacts(measured.log->fingers)
+                                                : mistakes_in_courses(measured.log->fingers);
 }
 
 /// A copy with all rows, or all readings, mended.
-Problem without(const SlipOfThePen& slip, const Problem& problem) {
+Problem without(const ColumnMistake& mistake, const Problem& problem) {
   Problem mended = problem;
   if (mended.measured.is_log()) {
-    for (FingerRows& rows : mended.measured.log->fingers) slip.mend(rows);
+    for (FingerRows& rows : mended.measured.log->fingers) mistake.mend(rows);
   } else {
-    for (Reading& reading : mended.measured.readings) mend(slip, reading);
+    for (Reading& reading : mended.measured.readings) mend(mistake, reading);
   }
   return mended;
 }
