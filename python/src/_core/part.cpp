@@ -14,6 +14,7 @@
 #include "rollfix/part.hpp"
 #include "rollfix/units.hpp"
 #include "signals.hpp"
+#include "text/units.hpp"
 #include "work/pulse.hpp"
 
 namespace rollfix::python {
