@@ -11,6 +11,7 @@
 
 #include "answer/steps.hpp"
 #include "cli.hpp"
+#include "documents/documents.hpp"
 #include "refusal.hpp"
 #include "rollfix/arguments/arguments.hpp"
 #include "rollfix/curve.hpp"
@@ -144,7 +145,7 @@ TEST(CliTwoFingers, poses_are_lists_in_json) {
   const Part part(rollfix::gallery("spline,seed=3"));
   Answer answer = solve({part, log_in({"both.csv"}), {0.1}});
   ASSERT_FALSE(answer.placements.empty());
-  const Json found = rollfix::answer_json(answer, false);
+  const Json found = rollfix::answer_document(answer, false);
   const auto nearest = std::find_if(answer.placements.begin(), answer.placements.end(), [](const auto& placement) {
     return std::abs(placement.start[0] - 1) < 1e-6 && std::abs(placement.start[1] - 4) < 1e-6;
   });
@@ -159,7 +160,7 @@ TEST(CliTwoFingers, poses_are_lists_in_json) {
   EXPECT_LT(placement["pose_residual"]["length"].get<double>(), 1e-6);
   EXPECT_LT(placement["pose_residual"]["turn"].get<double>(), 1e-6);
   answer.placements.front().pose_residual.reset();
-  EXPECT_TRUE(rollfix::answer_json(answer, false)["placements"][0]["pose"].is_null());
+  EXPECT_TRUE(rollfix::answer_document(answer, false)["placements"][0]["pose"].is_null());
 }
 
 // --- Mistakes.

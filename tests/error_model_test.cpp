@@ -113,7 +113,7 @@ double travelled(std::size_t rows, LogKind kind, const std::function<double(doub
   }
   double gathered = 0;
   for (const Node& node : nodes.complete()) gathered += node.gathered.length;
-  if (nodes.pending()) gathered += nodes.pending()->gathered.length;
+  for (const Node& node : nodes.pending()) gathered += node.gathered.length;
   if (kind == LogKind::increments) gathered -= static_cast<double>(rows) * std::pow(options.noise.contact, 2);
   return gathered / (std::pow(5 * kSlip, 2) * kPatch);
 }

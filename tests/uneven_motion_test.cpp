@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "rollfix/curve.hpp"
 #include "single_rolls.hpp"
 
 namespace uneven_motion_test {
@@ -36,6 +37,29 @@ TEST(UnevenMotion, of_a_finger_that_slips_loses_no_place) {
 
 TEST(UnevenMotion, of_a_gyroscope_that_walks_loses_no_place) {
   expect_right({.contact = 1e-4, .angle = 0.001, .walk = 0.003});
+}
+
+/// A bracket whose concave fillet is little wider than the finger: there the contact runs five times as fast.
+Part filleted_bracket() {
+  const double right_angle = std::acos(0.0);
+  return Part(Outline{"bracket",
+                      {Line({0, 0}, {60, 0}), Line({60, 0}, {60, 15}), Line({60, 15}, {20, 15}),
+                       Arc({20, 20}, 5, 3 * right_angle, -right_angle), Line({15, 20}, {15, 40}),
+                       Line({15, 40}, {0, 40}), Line({0, 40}, {0, 0})},
+                      true});
+}
+
+/// From 134.9 the finger would be on a straight side or at a corner, and its turn 180 degrees at least: the last rows'
+/// turn falls to 147. In a mean over the fillet's beginning they would not show.
+TEST(UnevenMotion, of_a_roll_that_ends_in_a_fillet_tells_the_place) {
+  for (const std::size_t rows : {292, 296, 300, 308}) {
+    const Noise noise{.contact = 0.05, .angle = 0.0035, .slip = 0.003};
+    const Part part = filleted_bracket();
+    const NoisyRoll roll = noisy_roll(part, disk(4), {.start = 52, .distance = 66, .rows = rows}, noise, 5);
+    const Answer answer = solve({part, roll.log, {disk(4)}, noise});
+    EXPECT_EQ(answer.verdict.text(), "unique") << rows << " rows";
+    EXPECT_TRUE(lists(answer, 52)) << rows << " rows";
+  }
 }
 
 }  // namespace

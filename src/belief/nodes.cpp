@@ -131,6 +131,8 @@ JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
   both.middle = of_a * a.middle + of_b * b.middle;
   // The variance within both and between their means.
   both.scatter = of_a * a.scatter + of_b * b.scatter + of_a * of_b * apart * apart;
+  const double way = b.length - a.length;
+  both.length_scatter = of_a * a.length_scatter + of_b * b.length_scatter + of_a * of_b * way * way;
   // Independent errors: shares enter squared.
   both.own = of_a * of_a * a.own + of_b * of_b * b.own;
   add_share(both.felt, of_a, a.felt);
@@ -148,7 +150,7 @@ bool RowBlocks::add(const Row& row) {
   own_ = errors_.row(row.finger_curvature, errors_.rows_alike(rows_, range_.width()));
   if (errors_.gathers_rows()) {
     // Errors that add up are in all rows that follow: the last one tells as much as all.
-    sum_ = {0, 0, 0, 0, {}, {}, sum_.rows, row.seconds, 0};
+    sum_ = {0, 0, 0, 0, {}, {}, sum_.rows, row.seconds, 0, 0};
     medians_ = 0;
     of_median_.clear();
   }
@@ -185,6 +187,8 @@ void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
   if (medians > 0) {
     const double off = middle.turn + tilt_ * middle.length[0] - sum.tilted(tilt_) / medians;
     sum.scatter += off * off * medians / (1 + medians);
+    const double way = middle.length[0] - sum.length / medians;
+    sum.length_scatter += way * way * medians / (1 + medians);
   }
   sum.length += middle.length[0];
   sum.turn += middle.turn;
@@ -199,8 +203,8 @@ JoinedRows RowBlocks::open() const {
   close_median(sum, medians);
   const double share = 1 / medians;
   JoinedRows rows{
-      share * sum.length, share * sum.turn, share * sum.sensed, share * sum.scatter, share * share * sum.own, {},
-      sum.rows,           sum.seconds,      share * sum.middle};
+      share * sum.length, share * sum.turn, share * sum.sensed, share * sum.scatter,       share * share * sum.own, {},
+      sum.rows,           sum.seconds,      share * sum.middle, share * sum.length_scatter};
   add_share(rows.felt, share, sum.felt);
   return rows;
 }
@@ -297,6 +301,7 @@ constexpr double kFewestNodes = 24;
 // A group in which the finger goes so many times as far as on average is several nodes. The margin is for chance: noise
 // that gathers spreads the rows of an even roll a little, now more, now less.
 constexpr double kFar = 1.3;
+constexpr int kAnyHalvings = 64;  // down to single blocks
 
 // A rest ends where two groups in a row are off it by more than 3 standard deviations, the same way, or one by as much
 // as no noise is; or where all of them have a trend. As chi-squares of two degrees of freedom, the length's and the
@@ -382,12 +387,12 @@ bool Nodes::are_too_many() const {
   return static_cast<double>(nodes_.size() - parts_) > many && walk_.modes() > 0.5 * many;
 }
 
-/// Fewer at the end of the roll.
+/// The block behind all complete ones is the open one.
 JoinedRows Nodes::joined(std::size_t begin, std::size_t blocks) const {
   const std::pmr::vector<JoinedRows>& all = blocks_.complete();
-  JoinedRows rows = all[begin];
-  const std::size_t end = std::min(begin + blocks, all.size());
-  for (std::size_t k = begin + 1; k < end; ++k) rows = blocks_.joined(rows, all[k]);
+  const auto block = [&](std::size_t k) { return k < all.size() ? all[k] : blocks_.open(); };
+  JoinedRows rows = block(begin);
+  for (std::size_t k = begin + 1; k < begin + blocks; ++k) rows = blocks_.joined(rows, block(k));
   return rows;
 }
 
@@ -411,7 +416,7 @@ void Nodes::complete_node(const JoinedRows& rows) {
   way_ = std::max(way_, travel_.so_far());
   const std::size_t begin = std::exchange(taken_, taken_ + group_);
   if (!joins_rests()) return push_group(begin, group_, rows, travelled);
-  if (!rest_.goes_on(rows, node_of(rows, travelled).own)) {
+  if (!rest_.goes_on(rows, node_of(rows, travelled, behind()).own)) {
     if (is_held_) push(rest_.rows(), rest_.travelled());
     begin_rest();
   }
@@ -436,47 +441,77 @@ void Nodes::begin_rest() {
   seconds_before_ = seconds_;
 }
 
-/// Its mean says where rows are that are spread evenly over their way; others it puts beside a bend or a corner.
-bool Nodes::goes_far(const JoinedRows& rows) const {
-  const double per_length = tilt_ + errors_.turn_per_length();
-  const double usual = way_ * rows_of_node() / static_cast<double>(rows_);
-  return std::sqrt(12 * spread_of(rows)) > kFar * per_length * usual;
+/// Its mean says where rows are that are spread evenly over their way; others it puts beside a bend or a corner. By w,
+/// which tells a pivot; and by length, for in a concave bend w may go on as before while the contact runs ahead.
+bool Nodes::goes_far(const JoinedRows& rows, const Behind& behind) const {
+  const double usual = kFar * way_ * rows_of_node() / static_cast<double>(rows_);
+  if (std::sqrt(12 * spread_of(rows, behind)) > (tilt_ + errors_.turn_per_length()) * usual) return true;
+  // `own` is of the mean. What chance makes of the rows' own errors counts as none.
+  const double noise = (rows.rows - 1) * rows.own.length * (1 + kFarthest * std::sqrt(2 / rows.rows));
+  return std::sqrt(12 * std::max(0.0, rows.length_scatter - noise)) > usual;
+}
+
+Nodes::Behind Nodes::behind() const {
+  if (nodes_.empty()) return {true, 0, seconds_};
+  return {false, nodes_.back().turn + tilt_ * nodes_.back().length, seconds_};
 }
 
 /// By halves. What was travelled is shared out by how far the means are apart.
-void Nodes::push_group(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled) {
-  if (blocks == 1 || !goes_far(rows)) return push(rows, travelled);
+template <class Take>
+void Nodes::split(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled, int halvings,
+                  Behind& behind, const Take& take) const {
+  if (blocks == 1 || halvings == 0 || !goes_far(rows, behind)) {
+    take(node_of(rows, travelled, behind), rows);
+    behind = {false, rows.tilted(tilt_), rows.seconds};
+    return;
+  }
   const std::size_t half = blocks / 2;
   const JoinedRows first = joined(begin, half);
   const JoinedRows second = joined(begin + half, blocks - half);
-  const double before = nodes_.empty() ? 0 : nodes_.back().turn + tilt_ * nodes_.back().length;
-  const double to_first = std::abs(first.tilted(tilt_) - before);
+  const double to_first = std::abs(first.tilted(tilt_) - behind.w);
   const double apart = std::abs(second.tilted(tilt_) - first.tilted(tilt_));
   const double share = to_first + apart > 0 ? to_first / (to_first + apart) : 0.5;
-  push_group(begin, half, first, share * travelled);
-  push_group(begin + half, blocks - half, second, (1 - share) * travelled);
-  ++parts_;
+  split(begin, half, first, share * travelled, halvings - 1, behind, take);
+  split(begin + half, blocks - half, second, (1 - share) * travelled, halvings - 1, behind, take);
+}
+
+void Nodes::push_group(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled) {
+  const std::size_t before = nodes_.size();
+  Behind behind = this->behind();
+  split(begin, blocks, rows, travelled, kAnyHalvings, behind, [&](const Node& node, const JoinedRows& of_node) {
+    nodes_.push_back(node);
+    walk_.add(node);
+    seconds_ = of_node.seconds;
+  });
+  parts_ += nodes_.size() - before - 1;
 }
 
 void Nodes::push(const JoinedRows& rows, double travelled) {
-  nodes_.push_back(node_of(rows, travelled));
+  nodes_.push_back(node_of(rows, travelled, behind()));
   walk_.add(nodes_.back());
   seconds_ = rows.seconds;
 }
 
-/// Blocks of the group that is filling, with the rows of the block that is; nothing where there are no rows. It does
-/// not become a mark of the travel: it will change.
-std::optional<Node> Nodes::pending() const {
-  const bool has_blocks = taken_ < blocks_.complete().size();
-  if (!has_blocks && !blocks_.has_open()) {
-    if (is_held_) return node_of(rest_.rows(), rest_.travelled());
-    return std::nullopt;
+/// Blocks of the group that is filling, with the rows of the block that is; nothing where there are no rows. They do
+/// not become marks of the travel: they will change. The last rows of a roll may be in its only bend: a mean of them
+/// and of those before it would not tell.
+PendingNodes Nodes::pending() const {
+  PendingNodes nodes;
+  const std::size_t blocks = blocks_.complete().size() - taken_ + (blocks_.has_open() ? 1 : 0);
+  if (blocks == 0) {
+    if (is_held_) nodes.push_back(node_of(rest_.rows(), rest_.travelled(), behind()));
+    return nodes;
   }
-  JoinedRows rows = has_blocks ? group(taken_) : blocks_.open();
-  if (has_blocks && blocks_.has_open()) rows = blocks_.joined(rows, blocks_.open());
+  const JoinedRows rows = joined(taken_, blocks);
   const double travelled = travel_.since_last(mark(taken_, rows));
-  if (is_held_) return node_of(blocks_.joined(rest_.rows(), rows), rest_.travelled() + travelled);
-  return node_of(rows, travelled);
+  if (is_held_) {
+    nodes.push_back(node_of(blocks_.joined(rest_.rows(), rows), rest_.travelled() + travelled, behind()));
+    return nodes;
+  }
+  Behind behind = this->behind();
+  split(taken_, blocks, rows, travelled, kPendingHalvings, behind,
+        [&](const Node& node, const JoinedRows& /*rows*/) { nodes.push_back(node); });
+  return nodes;
 }
 
 /// At the middle of its rows; of increments at the last one, which stands for them.
@@ -487,21 +522,21 @@ Travel::Mark Nodes::mark(std::size_t blocks, const JoinedRows& rows) const {
 }
 
 /// Rows that are off alike: their mean has the variance of `worth` rows, not of all.
-Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
+Node Nodes::node_of(const JoinedRows& rows, double travelled, const Behind& behind) const {
   const double worth = errors_.worth(travelled, rows.rows);
   return {rows.length,
           rows.turn,
           rows.sensed,
           rows.middle,
-          spread_of(rows),
+          spread_of(rows, behind),
           rows.rows / worth * rows.own + (by_walk_ ? errors_.bent(travelled) : RowCovariance{}),
-          errors_.gathered(travelled, rows.rows, {seconds_, rows.seconds}),
+          errors_.gathered(travelled, rows.rows, {behind.seconds, rows.seconds}),
           errors_.gathers_rows() ? 1 : rows.rows,
           worth,
           rows.felt};
 }
 
-double Nodes::spread_of(const JoinedRows& rows) const {
+double Nodes::spread_of(const JoinedRows& rows, const Behind& behind) const {
   if (rows.rows < 2 || errors_.gathers_rows()) return 0;
   // What rows scatter by on their own moves no contact.
   const RowCovariance& own = rows.own;
@@ -509,10 +544,8 @@ double Nodes::spread_of(const JoinedRows& rows) const {
   const double noise = (rows.rows - 1) * (tilt_ * tilt_ * own.length + 2 * tilt_ * own.both + own.turn);
   const double of_noise = noise * std::sqrt(2 / rows.rows);
   // Of a steady roll: so many rows of the way from the node before, or from the first contact.
-  const bool is_first = nodes_.empty();
-  const double before = is_first ? 0 : nodes_.back().turn + tilt_ * nodes_.back().length;
-  const double since = 0.5 * (rows.rows + (is_first ? 1 : rows_of_node()));
-  const double way = (rows.tilted(tilt_) - before) * rows.rows / since;
+  const double since = 0.5 * (rows.rows + (behind.is_first ? 1 : rows_of_node()));
+  const double way = (rows.tilted(tilt_) - behind.w) * rows.rows / since;
   const double steady = way * way / 12;
   const double seen = rows.scatter - noise;
   // A difference from a steady roll that chance explains counts as none. Else the scatter counts as seen, less the
@@ -539,14 +572,15 @@ double Nodes::Walk::modes() const {
 double Nodes::freedom() const {
   double sum = 0;
   for (const Node& node : nodes_) sum += std::min(1.0, node.worth);
-  if (const std::optional<Node> last = pending()) sum += std::min(1.0, last->worth);
+  for (const Node& node : pending()) sum += std::min(1.0, node.worth);
   return sum * (errors_.centre_variance() > 0 ? 3 : 1);
 }
 
 /// Of all complete nodes and the rows after them. Radians.
 double Nodes::turn_gathered() const {
-  const std::optional<Node> last = pending();
-  return std::sqrt(walk_.turn + (last ? last->gathered.turn : 0));
+  double turn = walk_.turn;
+  for (const Node& node : pending()) turn += node.gathered.turn;
+  return std::sqrt(turn);
 }
 
 /// At one instant: the direction from a to b in the world, less the mean of both normals, which turn with the part.

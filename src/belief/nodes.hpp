@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <memory_resource>
 #include <numbers>
@@ -90,8 +91,9 @@ struct JoinedRows {
   RowCovariance own;   // of the mean, where each row is off on its own
   FeltCentre felt{};   // where centres are looked at
   double rows = 0;
-  double seconds = 0;  // at the last of them, ...
-  double middle = 0;   // ... and as a mean, as of the others
+  double seconds = 0;         // at the last of them, ...
+  double middle = 0;          // ... and as a mean, as of the others
+  double length_scatter = 0;  // variance of the length among the rows
 
   double tilted(double tilt) const { return turn + tilt * length; }
 };
@@ -223,6 +225,10 @@ class Rest {
   Vec2 by_index_ = Vec2::Zero();  // ... and times their number, from 0
 };
 
+/// A group is halved so often at most while it fills.
+inline constexpr int kPendingHalvings = 4;
+using PendingNodes = boost::container::static_vector<Node, std::size_t{1} << kPendingHalvings>;
+
 /// A roll's rows as no more than a fixed number of nodes, however many rows there are. Where what gathers on the way is
 /// seen in many of them, there are far fewer, each of as many blocks of rows as it takes: a node's place on the path is
 /// one more unknown, and at places that weigh the same errors otherwise such unknowns leave chance a say that grows
@@ -246,8 +252,8 @@ class Nodes {
   /// Those that will not change until `generation` does.
   const std::pmr::vector<Node>& complete() const { return nodes_; }
   std::size_t generation() const { return generation_; }  // grows when nodes are joined
-  /// The rows after them.
-  std::optional<Node> pending() const;
+  /// The rows after them: one node, or several as of any group.
+  PendingNodes pending() const;
   std::size_t rows() const { return rows_; }
   /// As many independent equations as the nodes are.
   double freedom() const;
@@ -257,11 +263,22 @@ class Nodes {
  private:
   /// Whether rests are joined: among rows that do not move chance has a say that grows with their number.
   bool joins_rests() const { return by_walk_ && !errors_.gathers_rows() && errors_.centre_variance() <= 0; }
+  /// Where the roll is when a node begins, by w from its start, and when; nothing before the first one.
+  struct Behind {
+    bool is_first = true;
+    double w = 0;
+    double seconds = 0;
+  };
+  Behind behind() const;
   /// One more complete node.
   void push(const JoinedRows& rows, double travelled);
-  /// A group as one node, or as several where the finger goes much farther in it than in others.
+  /// The blocks from `begin` on, which are these rows, as one node, or as several where the finger goes much farther in
+  /// them than in other groups: `take` is given each. They are halved so often at most.
+  template <class Take>
+  void split(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled, int halvings,
+             Behind& behind, const Take& take) const;
   void push_group(std::size_t begin, std::size_t blocks, const JoinedRows& rows, double travelled);
-  bool goes_far(const JoinedRows& rows) const;
+  bool goes_far(const JoinedRows& rows, const Behind& behind) const;
   /// None of the groups so far is part of it.
   void begin_rest();
   /// What has gathered, and how well the rows together would know one length and one turn.
@@ -282,9 +299,9 @@ class Nodes {
   JoinedRows joined(std::size_t begin, std::size_t blocks) const;
   void complete_node(const JoinedRows& rows);
   void make_again();
-  Node node_of(const JoinedRows& rows, double travelled) const;
+  Node node_of(const JoinedRows& rows, double travelled, const Behind& behind) const;
   /// How far the course leads from their mean, on average: see Node.
-  double spread_of(const JoinedRows& rows) const;
+  double spread_of(const JoinedRows& rows, const Behind& behind) const;
   /// Rows behind so many blocks, as a place on the way.
   Travel::Mark mark(std::size_t blocks, const JoinedRows& rows) const;
   double rows_of_node() const { return static_cast<double>(group_ * blocks_.rows_of_block()); }

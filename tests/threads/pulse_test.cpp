@@ -9,14 +9,15 @@
 
 #include "rollfix/outline.hpp"
 #include "rollfix/pulse.hpp"
+#include "rollfix/question.hpp"
 #include "rollfix/solve.hpp"
 
 namespace pulse_test {
 namespace {
 
 using rollfix::Part;
-using rollfix::Problem;
 using rollfix::Pulse;
+using rollfix::Question;
 using rollfix::Reading;
 using Clock = std::chrono::steady_clock;
 
@@ -24,11 +25,11 @@ struct Enough {};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Problem problem_of(std::size_t count) {
+Question question_of(std::size_t count) {
   const Part part(rollfix::gallery("spline"));
   std::vector<Reading> readings;
   for (std::size_t k = 1; k <= count; ++k) readings.emplace_back(1e-3 * static_cast<double>(k), 0.0);
-  return {part, readings};
+  return {part, rollfix::Measurements{.readings = readings}};
 }
 
 TEST(Pulse, what_it_throws_ends_the_computation_and_comes_out_of_it) {
@@ -40,12 +41,12 @@ TEST(Pulse, what_it_throws_ends_the_computation_and_comes_out_of_it) {
 }
 
 TEST(Pulse, many_problems_end_in_the_middle_of_one) {
-  const std::vector<Problem> problems(200000, problem_of(40));
+  const std::vector<Question> questions(200000, question_of(40));
   const Clock::time_point start = Clock::now();
   const Pulse pulse([&](const char* /*doing*/) {
     if (seconds_since(start) > 0.1) throw Enough();
   });
-  EXPECT_THROW(solve(problems), Enough);
+  EXPECT_THROW(solve(questions), Enough);
 }
 
 TEST(Pulse, is_told_what_is_being_done) {

@@ -22,7 +22,7 @@ Reading roll_on(const Part& part, double s, double length) {
   return {length, part.turning().angle(s + length) - part.turning().angle(s)};
 }
 
-std::string answer_to(const Problem& problem) { return answer_json(solve(problem), false).dump(); }
+std::string answer_to(const Problem& problem) { return answer_document(solve(problem), false).dump(); }
 
 /// What each of so many threads has to say at the same time.
 std::vector<std::string> said_at_once(const std::function<std::string()>& say) {

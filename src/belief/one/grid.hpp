@@ -78,9 +78,9 @@ class PointScorer {
 
  private:
   RollFilter fresh_filter(const TiltedArc& arc, double w) const;
-  Task first_task(GridPoint& point, const Nodes& nodes) const;
+  FilterRun first_run(GridPoint& point, const Nodes& nodes) const;
   /// After another one; false: the point is scored.
-  bool next_task(Task& task, const Nodes& nodes, const std::optional<Node>& pending);
+  bool next_run(FilterRun& run, const Nodes& nodes, const PendingNodes& pending);
   void score(GridPoint& point, const Nodes& nodes);
   bool has_narrow_prior() const;
   /// The prior is one sample more: what it adds.

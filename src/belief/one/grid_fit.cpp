@@ -38,7 +38,7 @@ double Grid::step_between(const Nodes& nodes) const {
     count += 1;
   };
   for (const Node& node : nodes.complete()) pass(node);
-  if (const std::optional<Node> pending = nodes.pending()) pass(*pending);
+  for (const Node& node : nodes.pending()) pass(node);
   return count > 0 ? travelled / count : 0;
 }
 

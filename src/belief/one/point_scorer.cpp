@@ -93,19 +93,19 @@ GridPoint PointScorer::make(const TiltedArc& arc, double w) const {
 }
 
 void PointScorer::refresh(std::span<GridPoint* const> points, const Nodes& nodes) {
-  const std::optional<Node> pending = nodes.pending();
+  const PendingNodes pending = nodes.pending();
   auto next = points.begin();
   // First what is left of a lane's own point, then the next point that is stale or of nodes that are no more.
-  const auto next_of_all = [&](Task& task) {
-    if (task.point != nullptr && next_task(task, nodes, pending)) return true;
+  const auto next_of_all = [&](FilterRun& run) {
+    if (run.point != nullptr && next_run(run, nodes, pending)) return true;
     for (; next != points.end(); ++next) {
       if (!is_stale(**next, nodes) && (*next)->generation == nodes.generation()) continue;
-      task = first_task(**next++, nodes);
+      run = first_run(**next++, nodes);
       return true;
     }
     return false;
   };
-  run_tasks(std::ref(next_of_all), equations(), limit_, outliers_);
+  run_filters(std::ref(next_of_all), equations(), limit_, outliers_);
 }
 
 void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const Nodes& nodes) {
@@ -115,13 +115,13 @@ void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const
   for (const GridPoint* point : points) filters.push_back(fresh_filter(*point->filter.arc(), point->filter.w()));
   // All take the trial nodes, however far off they are: only their order matters.
   std::size_t begun = 0;
-  const auto next = [&](Task& task) {
+  const auto next = [&](FilterRun& run) {
     if (begun == filters.size()) return false;
-    task = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
+    run = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
     ++begun;
     return true;
   };
-  run_tasks(std::ref(next), equations(), limit_, outliers_);
+  run_filters(std::ref(next), equations(), limit_, outliers_);
   std::pmr::vector<std::size_t> order(points.size(), memory_);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -133,7 +133,7 @@ void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const
 }
 
 /// The complete nodes that the point has not taken. One of an older generation begins anew.
-Task PointScorer::first_task(GridPoint& point, const Nodes& nodes) const {
+FilterRun PointScorer::first_run(GridPoint& point, const Nodes& nodes) const {
   if (point.generation != nodes.generation()) {
     point = make(*point.filter.arc(), point.filter.w());
     point.generation = nodes.generation();
@@ -142,35 +142,35 @@ Task PointScorer::first_task(GridPoint& point, const Nodes& nodes) const {
   return {&point, 1, &point.filter, complete.data() + point.taken, complete.data() + complete.size()};
 }
 
-bool PointScorer::next_task(Task& task, const Nodes& nodes, const std::optional<Node>& pending) {
-  GridPoint& point = *task.point;
+bool PointScorer::next_run(FilterRun& run, const Nodes& nodes, const PendingNodes& pending) {
+  GridPoint& point = *run.point;
   const std::pmr::vector<Node>& complete = nodes.complete();
   const Node* last = complete.data() + complete.size();
   // The complete nodes are over: `filter` stays as it is for the rows to come, and `now` goes on from it.
-  if (task.filter == &point.filter) {
-    point.taken = static_cast<std::size_t>(task.next - complete.data());
+  if (run.filter == &point.filter) {
+    point.taken = static_cast<std::size_t>(run.next - complete.data());
     point.now = point.filter;
     point.score = score_of(point.now);
     point.deviance = point.score.cost + point.score.log_volume;
     point.rows = static_cast<std::size_t>(-1);
     // It stopped beyond the limit: stale, with a deviance that is a bound.
-    if (task.next != last) return false;
+    if (run.next != last) return false;
   }
   // What follows is few rows or a pass that must be whole to count.
-  task.filter = &point.now;
-  task.whole = true;
-  // The node that is still filling is taken last, by `now` alone.
-  if (pending && task.end == last) {
-    task.next = &*pending;
-    task.end = task.next + 1;
+  run.filter = &point.now;
+  run.whole = true;
+  // What is still filling is taken last, by `now` alone.
+  if (!pending.empty() && run.end == last) {
+    run.next = pending.data();
+    run.end = run.next + pending.size();
     return true;
   }
   // Wide angles: all nodes once more, about what this pass has found.
-  if (errors_.is_wide() && task.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn, task.end[-1].seconds)) {
-    ++task.pass;
+  if (errors_.is_wide() && run.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn, run.end[-1].seconds)) {
+    ++run.pass;
     point.now = point.now.again(errors_.start(), memory_);
-    task.next = complete.data();
-    task.end = last;
+    run.next = complete.data();
+    run.end = last;
     return true;
   }
   score(point, nodes);
@@ -214,26 +214,26 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::option
                0, nodes.generation(), Innovations{in(memory_), in(memory_), in(memory_)}});
     traced->filter.record_to(traced->innovations);
   }
-  // One task, whole, by itself.
+  // One run, whole, by itself.
   const auto take = [&](RollFilter& filter, const Node* from, const Node* end) {
     bool is_begun = false;
-    const auto once = [&](Task& task) {
-      task = {nullptr, 1, &filter, from, end, true};
+    const auto once = [&](FilterRun& run) {
+      run = {nullptr, 1, &filter, from, end, true};
       return !std::exchange(is_begun, true) && from != end;
     };
-    run_tasks(std::ref(once), equations(), limit_, outliers_);
+    run_filters(std::ref(once), equations(), limit_, outliers_);
   };
   const std::pmr::vector<Node>& complete = nodes.complete();
   take(traced->filter, complete.data() + traced->taken, complete.data() + complete.size());
   traced->taken = complete.size();
-  const std::optional<Node> pending = nodes.pending();
-  if (!pending) return trend_of(traced->innovations, nodes.freedom());
+  const PendingNodes pending = nodes.pending();
+  if (pending.empty()) return trend_of(traced->innovations, nodes.freedom());
   // It will change: what it adds is not kept.
   Innovations all{in(memory_, traced->innovations[0]), in(memory_, traced->innovations[1]),
                   in(memory_, traced->innovations[2])};
   RollFilter now = traced->filter;
   now.record_to(all);
-  take(now, &*pending, &*pending + 1);
+  take(now, pending.data(), pending.data() + pending.size());
   return trend_of(all, nodes.freedom());
 }
 

@@ -164,7 +164,7 @@ class RollFilter {
 struct GridPoint;
 
 /// Nodes that a filter is to take, in order.
-struct Task {
+struct FilterRun {
   GridPoint* point = nullptr;  // that it is for
   int pass = 0;                // how often it has gone through them
   RollFilter* filter = nullptr;
@@ -180,12 +180,12 @@ struct RowEquations {
   bool bias = false;             // ... and another
 };
 
-/// Gives the next task; false: there is none. It is called with the one that is over, to go on from: its filter has
+/// Gives the next run; false: there is none. It is called with the one that is over, to go on from: its filter has
 /// taken all nodes, or those before `next` and is beyond the limit. The first ones are called for with an empty one.
-using NextTask = std::function<bool(Task&)>;
+using NextRun = std::function<bool(FilterRun&)>;
 
-/// Runs tasks, several side by side, for each is one long chain of operations that wait for each other. What comes of
-/// one does not depend on the others. `limit`: of the deviance, as it is by then.
-void run_tasks(const NextTask& next, const RowEquations& equations, const double& limit, const Outliers& outliers);
+/// Goes through runs, several side by side, for each is one long chain of operations that wait for each other. What
+/// comes of one does not depend on the others. `limit`: of the deviance, as it is by then.
+void run_filters(const NextRun& next, const RowEquations& equations, const double& limit, const Outliers& outliers);
 
 }  // namespace rollfix::belief

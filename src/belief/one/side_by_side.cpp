@@ -35,19 +35,19 @@ using Four = Eigen::Array<double, kLanes, 1>;
 template <int Errors>
 class SideBySide {
  public:
-  SideBySide(const NextTask& next, const double& limit, const Outliers& outliers)
+  SideBySide(const NextRun& next, const double& limit, const Outliers& outliers)
       : next_(next), limit_(limit), outliers_(outliers) {}
 
   void run() {
-    // Each turn of the loop takes one node in every lane. A lane whose task is over gets the next one at once.
+    // Each turn of the loop takes one node in every lane. A lane whose run is over gets the next one at once.
     for (std::size_t lane = 0; lane < kLanes; ++lane) begin(lane);
     while (busy_ > 0) {
       take_nodes();
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        Task& task = errands_[lane];
-        if (task.filter == nullptr) continue;
-        ++task.next;
-        if (!is_over(task, cost_[at(lane)] + log_volume_[at(lane)] > limit_)) continue;
+        FilterRun& run = runs_[lane];
+        if (run.filter == nullptr) continue;
+        ++run.next;
+        if (!is_over(run, cost_[at(lane)] + log_volume_[at(lane)] > limit_)) continue;
         save(lane);
         --busy_;
         begin(lane);
@@ -118,20 +118,20 @@ class SideBySide {
   // Eigen counts with signed numbers.
   static Eigen::Index at(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
-  /// Gives a lane its next task that has nodes to take; an empty one where there is none.
+  /// Gives a lane its next run that has nodes to take; an empty one where there is none.
   void begin(std::size_t lane) {
     beat();
-    Task& task = errands_[lane];
-    while (next_(task)) {
-      if (is_over(task, task.filter->is_beyond(limit_))) continue;
+    FilterRun& run = runs_[lane];
+    while (next_(run)) {
+      if (is_over(run, run.filter->is_beyond(limit_))) continue;
       ++busy_;
       load(lane);
       return;
     }
-    task = {};
+    run = {};
   }
-  /// All nodes are taken, or the deviance is beyond what can matter and the task need not be whole.
-  static bool is_over(const Task& task, bool is_beyond) { return task.next == task.end || (is_beyond && !task.whole); }
+  /// All nodes are taken, or the deviance is beyond what can matter and the run need not be whole.
+  static bool is_over(const FilterRun& run, bool is_beyond) { return run.next == run.end || (is_beyond && !run.whole); }
 
   /// Every number of a filter, next to where the lanes have it.
   template <class Copy>
@@ -158,7 +158,7 @@ class SideBySide {
   }
   /// Copies a filter's numbers into its lane.
   void load(std::size_t lane) {
-    RollFilter& filter = *errands_[lane].filter;
+    RollFilter& filter = *runs_[lane].filter;
     exchange(filter, [&](Four& all, const double& one) { all[at(lane)] = one; });
     tilt_ = filter.tilt_;
     w_[at(lane)] = filter.w_;
@@ -184,7 +184,7 @@ class SideBySide {
   }
   /// The other way round; the lower halves of the symmetric matrices are filled in.
   void save(std::size_t lane) {
-    RollFilter& filter = *errands_[lane].filter;
+    RollFilter& filter = *runs_[lane].filter;
     exchange(filter, [&](const Four& all, double& one) { one = all[at(lane)]; });
     filter.p_.template triangularView<Eigen::StrictlyLower>() = filter.p_.transpose();
     filter.walk_(1, 0) = filter.walk_(0, 1);
@@ -204,7 +204,7 @@ class SideBySide {
   Uncertain open_of(const Rolled& rolled, const LinearisedAt& about, const Uncertain& so_far) const;
   /// Adds variances to the offsets in P, and to G.
   void gather(const Four& length, const Four& turn);
-  /// s(w) as a line about w in one lane. A lane without task gets none.
+  /// s(w) as a line about w in one lane. A lane without a run gets none.
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
   /// One node in every lane.
   void take_nodes();
@@ -213,13 +213,13 @@ class SideBySide {
   /// Kalman's correction of x, P, G and of what is summed for the likelihood.
   void correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain);
 
-  const NextTask& next_;
+  const NextRun& next_;
   const double& limit_;  // of the deviance; it may fall while the lanes run
   const Outliers& outliers_;
-  std::array<Task, kLanes> errands_;
-  std::size_t busy_ = 0;  // lanes with an task
+  std::array<FilterRun, kLanes> runs_;
+  std::size_t busy_ = 0;  // lanes with a run
   double tilt_ = 0;
-  // Lanes without an task go on with these: they only have to stay finite.
+  // Lanes without a run go on with these: they only have to stay finite.
   PerError x_ = all(0), dx_ = x_, most_ = all(1);  // most_: bounds on |x| of scales and bias
   Covariance p_ = Covariance::none();
   Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
@@ -234,11 +234,11 @@ class SideBySide {
 
 template <int Errors>
 typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
-  // A lane without task takes this: variances above 0 keep all its numbers finite.
+  // A lane without a run takes this: variances above 0 keep all its numbers finite.
   static const Node kNone{0, 0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    nodes[lane] = errands_[lane].filter != nullptr ? errands_[lane].next : &kNone;
+    nodes[lane] = runs_[lane].filter != nullptr ? runs_[lane].next : &kNone;
   }
   const auto each = [&](const auto& number) {
     return Four(number(*nodes[0]), number(*nodes[1]), number(*nodes[2]), number(*nodes[3]));
@@ -274,8 +274,8 @@ void SideBySide<Errors>::gather(const Four& length, const Four& turn) {
 
 template <int Errors>
 void SideBySide<Errors>::look(std::size_t lane, double w, double variance, double spread, Lines& lines) const {
-  if (errands_[lane].filter == nullptr) return;
-  const SpreadPlace end = errands_[lane].filter->arc()->about(w, variance, spread);
+  if (runs_[lane].filter == nullptr) return;
+  const SpreadPlace end = runs_[lane].filter->arc()->about(w, variance, spread);
   lines.s[at(lane)] = end.s;
   lines.slope[at(lane)] = end.slope;
   lines.bent[at(lane)] = end.variance;
@@ -425,9 +425,9 @@ Four SideBySide<Errors>::trust(const Lines& lines) {
   Four trust = inverse;
   if (outliers_.share > 0) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (errands_[lane].filter == nullptr) continue;
+      if (runs_[lane].filter == nullptr) continue;
       const RowShare share = share_of(1, squared[at(lane)], lines.noise[at(lane)], lines.all[at(lane)], outliers_);
-      RollFilter& filter = *errands_[lane].filter;
+      RollFilter& filter = *runs_[lane].filter;
       filter.right_rows_ += share.weight;
       filter.right_cost_ += share.weight * squared[at(lane)];
       cost_[at(lane)] += share.cost;
@@ -460,7 +460,7 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
   // In standard deviations.
   const Four innovation = -trusted.sqrt() * lines.miss;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (errands_[lane].filter != nullptr) errands_[lane].filter->whiteness_[0].add(innovation[at(lane)]);
+    if (runs_[lane].filter != nullptr) runs_[lane].filter->whiteness_[0].add(innovation[at(lane)]);
   }
   // de/dw with the estimate moving along, sign reversed: m0 - m - (1 - c m) g dx/dw + m h dx/dw.
   const Four by_w =
@@ -499,13 +499,13 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
 
 /// Rows with centres have three equations and are taken one filter at a time. Others run side by side, with no more
 /// shared errors than the log has.
-void run_tasks(const NextTask& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
+void run_filters(const NextRun& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
   if (!equations.centres && equations.bias) return SideBySide<kRolling>(next, limit, outliers).run();
   if (!equations.centres && equations.gyroscope_scale) return SideBySide<kWithoutBias>(next, limit, outliers).run();
   if (!equations.centres) return SideBySide<kWithoutGyroscope>(next, limit, outliers).run();
-  for (Task task; next(task);) {
-    const auto goes_on = [&] { return task.whole || !task.filter->is_beyond(limit); };
-    for (; task.next != task.end && goes_on(); ++task.next) task.filter->update(*task.next, outliers);
+  for (FilterRun run; next(run);) {
+    const auto goes_on = [&] { return run.whole || !run.filter->is_beyond(limit); };
+    for (; run.next != run.end && goes_on(); ++run.next) run.filter->update(*run.next, outliers);
   }
 }
 
