@@ -43,9 +43,8 @@ std::string headline(const HoldAnswer& held, const NextPin& next) {
   const ExpectedGain& advised = next.advice->advised();
   const int decimals = decimals_for(held.part.perimeter());
   return fmt::format(
-      "{}: move the pin by {} along the jaw{} and {} away from it{}: {:.2f} placements are expected "
-      "to remain, {:.2f} of "
-      "{:.2f} bits gained\n",
+      "{}: move the pin by {} along the jaw{} and {} away from it{}: {:.2f} placements are expected to remain, {:.2f} "
+      "of {:.2f} bits gained\n",
       verdict, fixed(next.advice->lengths()[0], decimals), behind(held.part.unit()),
       held.squeezed ? "as the squeeze has it" : fixed(next.advice->lengths()[1], decimals),
       held.squeezed ? "" : behind(held.part.unit()), advised.placements, advised.bits, next.advice->bits_wanted);
@@ -475,8 +474,7 @@ void add_advise_command(CLI::App& program, Command& chosen) {
   command
       ->add_option("--travel", arguments->travel,
                    "how far each finger can roll on: a length, or one backwards, below 0, and one forwards; default "
-                   "one lap; of a "
-                   "wheel without skin how far its pin can go, default a tenth of a lap")
+                   "one lap; of a wheel without skin how far its pin can go, default a tenth of a lap")
       ->type_name("BACK,FORWARD");
   command
       ->add_option("--friction", arguments->friction,

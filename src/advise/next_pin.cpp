@@ -179,8 +179,7 @@ void require_rig(const HoldAnswer& held) {
   if (held.rolls.size() == 2 && held.rolls[0].is_jaw && held.rolls[1].is_wheel) return;
   throw InputError(
       fmt::format("advise: expected a jaw and one wheel without skin, found {} and {}: how others roll by where the "
-                  "pin goes is not "
-                  "looked at; roll on, and let `watch` tell when one place is left",
+                  "pin goes is not looked at; roll on, and let `watch` tell when one place is left",
                   counted(held.rolls.size(), "log", "logs"), held.rolls[0].is_jaw ? "a jaw first" : "no jaw first"));
 }
 

@@ -211,10 +211,9 @@ void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
       const double allowed = problem.robust ? kStrayRows * static_cast<double>(logs[a].rows()) : 0;
       if (static_cast<double>(found.rows) <= allowed) continue;
       throw InputError(fmt::format(
-          "fingers on a free part: {} and {}: expected x and y at which fingers {} and {} are apart, "
-          "found them {:.4g} deep "
-          "in each other, in {} of {} rows, whatever the part does; check the radii and the units of x and y, or if "
-          "the fingers are at different heights say that they may overlap",
+          "fingers on a free part: {} and {}: expected x and y at which fingers {} and {} are apart, found them {:.4g} "
+          "deep in each other, in {} of {} rows, whatever the part does; check the radii and the units of x and y, or "
+          "if the fingers are at different heights say that they may overlap",
           where(logs[a], 0, found.row), where(logs[b], 0, found.row), finger_letter(a), finger_letter(b), found.depth,
           found.rows, logs[a].rows()));
     }

@@ -30,9 +30,8 @@ void require_fingers(const HoldProblem& problem) {
   }
   if (count == 0) {
     refuse(
-        "expected a finger with skin, found wheels alone: where pins were says nothing of a part "
-        "that may lie anywhere; "
-        "add the log of a finger with u and psi, as of a jaw");
+        "expected a finger with skin, found wheels alone: where pins were says nothing of a part that may lie "
+        "anywhere; add the log of a finger with u and psi, as of a jaw");
   }
   if (problem.fingers.empty()) {
     refuse(
@@ -76,8 +75,7 @@ void require_wheels(const HoldProblem& problem) {
     if (problem.logs.size() != 1 || problem.wheels.size() != 1) {
       refuse(
           fmt::format("squeezed: expected one finger with skin and one wheel, found {} and {}: with others the forces "
-                      "do not lie on "
-                      "one line; leave it out",
+                      "do not lie on one line; leave it out",
                       problem.logs.size(), problem.wheels.size()));
     }
   }
@@ -87,8 +85,8 @@ void require_wheels(const HoldProblem& problem) {
   if (!any_place) {
     refuse(
         fmt::format("{}: expected columns x and y, where the origin of the finger's frame was, found none: a wheel "
-                    "says something by "
-                    "where its pin was as seen from the finger; without both any place on the part fits",
+                    "says something by where its pin was as seen from the finger; without both any place "
+                    "on the part fits",
                     problem.logs.front().name));
   }
   // Without a stated error x and y are no evidence.

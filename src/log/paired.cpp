@@ -94,8 +94,7 @@ void keep_common_contact(Log& a, Log& b) {
   if (a.time.empty()) {
     throw InputError(
         fmt::format("{} and {}: rows without contact were left out and there is no column 'time', so that it is not "
-                    "known which rows "
-                    "belong together; add the times",
+                    "known which rows belong together; add the times",
                     a.name, b.name));
   }
   // Clocks round: rows at the ends may differ by that.

@@ -228,9 +228,8 @@ std::vector<Entry> drawn_shapes() {
       {{"naca",
         "4-digit section with the closed trailing edge (-0.1036 x^4): camber, its place, thickness",
         "the trailing edge (chord, 0), then over the top",
-        "a sharp corner at the trailing edge; with camber also a very slight one above and below "
-        "its highest place, where "
-        "the formula's own tangent jumps; the curvature's derivative jumps at the nose",
+        "a sharp corner at the trailing edge; with camber also a very slight one above and below its highest place, "
+        "where the formula's own tangent jumps; the curvature's derivative jumps at the nose",
         kClosed,
         kCorners,
         {text("digits", "2412", "the four digits, such as 0012 or 2412"), length("chord", "1", "length")}},

@@ -275,8 +275,7 @@ double balance_at(const PlanProblem& problem, const ContactWay& a, const Contact
   if (off(nearest) <= kSettling * problem.part.perimeter()) return nearest;
   throw InputError(
       fmt::format("a wheel at t = {:.9g} is not in balance: its force misses the contact of finger a, and the part "
-                  "would roll until "
-                  "it does not{}",
+                  "would roll until it does not{}",
                   start, names.empty() ? "; start finger a elsewhere" : ": give as its start t = " + names));
 }
 

@@ -280,9 +280,8 @@ void EvenTrack::refuse_tight(const Tightest& tightest) const {
         part().name(), part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature));
   }
   throw InputError(
-      fmt::format("{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), "
-                  "where the curvature is "
-                  "{:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
+      fmt::format("{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), where the "
+                  "curvature is {:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
                   part().name(), radius_, part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature,
                   -1 / tightest.curvature));
 }
@@ -292,8 +291,8 @@ void EvenTrack::refuse_corner(double s, double turn) const {
   const Vec2 point = part().point(s);
   throw InputError(
       fmt::format("{}: a finger can't get into the concave corner at s = {:.9g}, ({:.6g}, {:.6g}), where the tangent "
-                  "turns by {:.6g} "
-                  "degrees: the largest radius that would do is 0 (the curvature is -inf); end the roll before it",
+                  "turns by {:.6g} degrees: the largest radius that would do is 0 (the curvature is -inf); end the "
+                  "roll before it",
                   part().name(), part().boundary().base(s), point.x(), point.y(), turn / kDegree));
 }
 
@@ -302,8 +301,7 @@ void EvenTrack::refuse_end(double s) const {
   const Vec2 point = part().point(s);
   throw InputError(
       fmt::format("{}: the roll runs off the end of the open outline at s = {:.9g}, ({:.6g}, {:.6g}): expected a "
-                  "contact that stays "
-                  "in 0 <= s <= {:.9g}; start elsewhere or roll less far",
+                  "contact that stays in 0 <= s <= {:.9g}; start elsewhere or roll less far",
                   part().name(), part().boundary().base(s), point.x(), point.y(), turning_.perimeter()));
 }
 

@@ -110,9 +110,8 @@ void require_clear_beside_rolls(const TouchProblem& problem) {
                                       [](const Log& roll) { return !roll.fingers.front().x.empty(); });
   if (!any_centre) {
     refuse(
-        "`clear`: expected where the part is, found rolls without x and y, which tell its heading "
-        "alone: give logs with "
-        "x and y, or a touch, or leave `clear` out");
+        "`clear`: expected where the part is, found rolls without x and y, which tell its heading alone: give logs "
+        "with x and y, or a touch, or leave `clear` out");
   }
   if (problem.noise && !(problem.noise->position > 0)) {
     refuse("`clear`: expected how exact x and y are, found no position in `noise`: give position=SD");

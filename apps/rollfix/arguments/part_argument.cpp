@@ -223,8 +223,7 @@ Finger read_any(const std::string& text, const std::string& unit) {
   if (names_wheel(text)) {
     throw InputError(
         fmt::format("--finger {}: a wheel has no skin: locate, watch and advise take it beside a finger with skin, "
-                    "with a log of each, as "
-                    "in --log jaw.csv --log pin.csv --finger jaw --finger {}",
+                    "with a log of each, as in --log jaw.csv --log pin.csv --finger jaw --finger {}",
                     text, text));
   }
   return names_outline(text) ? read_outlined(text, unit) : Finger(read_disk(text, unit));

@@ -161,9 +161,8 @@ void add_log_notes(const Log& log, std::vector<std::string>& notes) {
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
   command
       .add_option("--log", logs,
-                  "a tactile log, - for stdin; for two fingers one file or two; `locate` takes one of each of "
-                  "three to eight, and "
-                  "of a wheel, which has x and y of its pin, and psi where it has an encoder")
+                  "a tactile log, - for stdin; for two fingers one file or two; `locate` takes one of each of three to "
+                  "eight, and of a wheel, which has x and y of its pin, and psi where it has an encoder")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command

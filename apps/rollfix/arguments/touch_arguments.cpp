@@ -139,9 +139,9 @@ void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, R
       ->allow_extra_args(false);
   command
       .add_option("--clear", arguments.clear,
-                  "of touches and several rolls: where the finger's centre went straight from one place to "
-                  "another and felt nothing; "
-                  "repeatable; rows: between the rows of the log with contact 0, and from them to the next contact")
+                  "of touches and several rolls: where the finger's centre went straight from one place to another and "
+                  "felt nothing; repeatable; rows: between the rows of the log with contact 0, and from them "
+                  "to the next contact")
       ->type_name("X,Y,X,Y|rows")
       ->allow_extra_args(false);
 }

@@ -290,9 +290,8 @@ Report identify_report(const IdentifyArguments& arguments) {
   require_figure_output(arguments.output, arguments.json);
   if (has_wheel(arguments.roll)) {
     throw InputError(
-        "identify: a wheel without skin is taken beside a known part: ask rollfix locate of each part that "
-        "it may be, or "
-        "give the logs of fingers with skin alone");
+        "identify: a wheel without skin is taken beside a known part: ask rollfix locate of each part that it may be, "
+        "or give the logs of fingers with skin alone");
   }
   const Catalog catalog(arguments.catalog);
   IdentifyOptions options;

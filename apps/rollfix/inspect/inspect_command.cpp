@@ -106,8 +106,7 @@ std::string disk_text(const Part& part, double radius) {
     return fmt::format("of no size rolls all around: the corner at {} is concave, {} deg",
                        fixed(sharpest->s, decimals_for(part.perimeter())), degrees(sharpest->turn));
   }
-  return fmt::format(
-      "of radius {:.6g} at most rolls all around, by the curvature (a narrow neck may stop a smaller one)", radius);
+  return fmt::format("of a radius below {:.6g} rolls all around, by the curvature (a narrow neck may stop it)", radius);
 }
 
 std::string reach_text(const Inspection& outcome) {

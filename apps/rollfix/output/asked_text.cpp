@@ -161,14 +161,14 @@ class AskedText : AnswerWords {
   std::string what_rows_say() const {
     const Weighing& weighing = *answer_.weighing;
     std::string text = scale_lines(weighing.fit, fingers_);
-    if (!verbose_) return text;
     std::vector<std::string> exact;
-    if (weighing.noise.slip <= 0) exact.emplace_back("slip");
+    if (weighing.noise.slip <= 0) exact.emplace_back("no slip");
     if (weighing.noise.radius <= 0 && !answer_.fingers.empty() && answer_.fingers.front().is_disk()) {
-      exact.emplace_back("the finger's radius");
+      exact.emplace_back("the finger's radius is exact");
     }
-    if (!exact.empty()) text += fmt::format("exact      assumed: {}\n", fmt::join(exact, ", "));
-    if (weighing.noise.position <= 0 && !answer_.placements.empty() && answer_.placements.front().pose_spread) {
+    if (!exact.empty()) text += fmt::format("assumed    {}; if not, say it in --noise\n", fmt::join(exact, ", "));
+    if (verbose_ && weighing.noise.position <= 0 && !answer_.placements.empty() &&
+        answer_.placements.front().pose_spread) {
       text += "centres    x, y: used for the pose only; --noise position=SD uses them as measurements\n";
     }
     return text;

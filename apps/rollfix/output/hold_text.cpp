@@ -73,9 +73,8 @@ class HoldText {
     }
     if (!answer_.diagnoses.empty()) return "no places on the part fit all fingers\n";
     if (answer_.overlap > 0) {
-      return "no places on the part fit all fingers unless they enter each other: check the radii, or "
-             "if the fingers are "
-             "at different heights add --may-overlap\n";
+      return "no places on the part fit all fingers unless they enter each other: check the radii, or if the fingers "
+             "are at different heights add --may-overlap\n";
     }
     return std::string("no places on the part fit all fingers: ") +
            (answer_.noise ? "" : "without --noise all digits are taken as exact; if they are not, add it; ") +

@@ -139,10 +139,9 @@ void read_fingers_and_wheel(const WatchArguments& arguments, std::size_t logs, c
   }
   if (with_skin.size() != 2 || wheel == with_skin.begin() || logs != 2) {
     throw InputError(fmt::format(
-        "--finger {}: watch takes one finger with skin and behind it one wheel, with a log of each in "
-        "the same order, as "
-        "in --finger jaw --finger wheel,r=0.4 --log jaw.csv --log pin.csv; more of them are for rollfix locate, when "
-        "they have rolled",
+        "--finger {}: watch takes one finger with skin and behind it one wheel, with a log of each in the same order, "
+        "as in --finger jaw --finger wheel,r=0.4 --log jaw.csv --log pin.csv; more of them are for rollfix locate, "
+        "when they have rolled",
         *wheel));
   }
   if (!arguments.catalog.empty()) {
