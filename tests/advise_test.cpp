@@ -9,6 +9,8 @@
 #include "refusal.hpp"
 #include "rollfix/advise.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/rolling.hpp"
+#include "rollfix/solve.hpp"
 
 // The next roll: what is promised of it, and that it keeps what it promises.
 namespace advise_test {
@@ -190,6 +192,18 @@ TEST(Advise, without_hypotheses_there_is_nothing_to_advise) {
 }
 
 // ---- before any contact
+
+/// A noisy log, taken as exact: places fit the last row, and none of them all rows.
+TEST(Advise, of_places_that_the_rows_contradict_tells_none_apart) {
+  const Part part = rollfix::load_part("gallery:spline,n=9,seed=4,wobble=0.2");
+  const rollfix::RollPlan plan{.start = 1, .distance = 1.5, .rows = 60};
+  const auto roll = rollfix::noisy_roll(part, rollfix::disk(0.1), plan, {.contact = 0.01, .angle = 0.01}, 3);
+  const rollfix::Answer answer = rollfix::solve({part, roll.log, {rollfix::disk(0.1)}});
+  ASSERT_TRUE(answer.verdict.fits_badly && !answer.placements.empty());
+  const rollfix::NextRoll next = rollfix::next_roll(answer);
+  EXPECT_FALSE(next.advice);
+  EXPECT_THAT(next.why, HasSubstr("the rows contradict all of these places"));
+}
 
 TEST(FirstRoll, of_one_finger_tells_places_apart_that_bend_differently) {
   const rollfix::NextRoll next = rollfix::next_roll(

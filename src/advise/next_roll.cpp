@@ -320,6 +320,11 @@ NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel, 
     next.why = "there is only one place left";
     return next;
   }
+  // Without noise, and contradicted by other rows: none of them is where the finger is.
+  if (!answer.weighing && answer.verdict.fits_badly) {
+    next.why = "the rows contradict all of these places; first find what is wrong, by `locate`";
+    return next;
+  }
   AdviceOptions options = advice_options(answer, travel);
   const ReachForAdvice reach(answer);
   // The pointers live as long as `reach`, which outlives the calls below.
