@@ -196,7 +196,9 @@ TEST(Advise, without_hypotheses_there_is_nothing_to_advise) {
 /// A noisy log, taken as exact: places fit the last row, and none of them all rows.
 TEST(Advise, of_places_that_the_rows_contradict_tells_none_apart) {
   const Part part = rollfix::load_part("gallery:spline,n=9,seed=4,wobble=0.2");
-  const rollfix::RollPlan plan{.start = 1, .distance = 1.5, .rows = 60};
+  rollfix::RollPlan plan;
+  plan.start = 1;
+  plan.distance = 1.5;
   const auto roll = rollfix::noisy_roll(part, rollfix::disk(0.1), plan, {.contact = 0.01, .angle = 0.01}, 3);
   const rollfix::Answer answer = rollfix::solve({part, roll.log, {rollfix::disk(0.1)}});
   ASSERT_TRUE(answer.verdict.fits_badly && !answer.placements.empty());

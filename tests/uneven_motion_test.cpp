@@ -55,7 +55,11 @@ TEST(UnevenMotion, of_a_roll_that_ends_in_a_fillet_tells_the_place) {
   for (const std::size_t rows : {292, 296, 300, 308}) {
     const Noise noise{.contact = 0.05, .angle = 0.0035, .slip = 0.003};
     const Part part = filleted_bracket();
-    const NoisyRoll roll = noisy_roll(part, disk(4), {.start = 52, .distance = 66, .rows = rows}, noise, 5);
+    RollPlan plan;
+    plan.start = 52;
+    plan.distance = 66;
+    plan.rows = rows;
+    const NoisyRoll roll = noisy_roll(part, disk(4), plan, noise, 5);
     const Answer answer = solve({part, roll.log, {disk(4)}, noise});
     EXPECT_EQ(answer.verdict.text(), "unique") << rows << " rows";
     EXPECT_TRUE(lists(answer, 52)) << rows << " rows";
