@@ -46,6 +46,9 @@ rollfix_library(rollfix rollfix
   SOURCES ${core_sources}
   HEADERS ${core_headers} ${PROJECT_BINARY_DIR}/include/rollfix/version.hpp
   HEADER_DIRS ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/include)
+# With noise most of the time goes there: by itself more of it is inlined, whatever else its folder holds.
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/belief/one/side_by_side.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # Eigen is part of the interface, fmt is linked; Boost and fast_float are headers that only our sources see.
 target_link_libraries(rollfix
   PUBLIC Eigen3::Eigen

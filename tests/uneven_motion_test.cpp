@@ -52,7 +52,7 @@ Part filleted_bracket() {
 /// From 134.9 the finger would be on a straight side or at a corner, and its turn 180 degrees at least: the last rows'
 /// turn falls to 147. In a mean over the fillet's beginning they would not show.
 TEST(UnevenMotion, of_a_roll_that_ends_in_a_fillet_tells_the_place) {
-  for (const std::size_t rows : {292, 296, 300, 308}) {
+  for (const std::size_t rows : {292U, 296U, 300U, 308U}) {
     const Noise noise{.contact = 0.05, .angle = 0.0035, .slip = 0.003};
     const Part part = filleted_bracket();
     RollPlan plan;

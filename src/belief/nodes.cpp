@@ -390,9 +390,10 @@ bool Nodes::are_too_many() const {
 /// The block behind all complete ones is the open one.
 JoinedRows Nodes::joined(std::size_t begin, std::size_t blocks) const {
   const std::pmr::vector<JoinedRows>& all = blocks_.complete();
-  const auto block = [&](std::size_t k) { return k < all.size() ? all[k] : blocks_.open(); };
-  JoinedRows rows = block(begin);
-  for (std::size_t k = begin + 1; k < begin + blocks; ++k) rows = blocks_.joined(rows, block(k));
+  JoinedRows rows = begin < all.size() ? all[begin] : blocks_.open();
+  for (std::size_t k = begin + 1; k < begin + blocks; ++k) {
+    rows = blocks_.joined(rows, k < all.size() ? all[k] : blocks_.open());
+  }
   return rows;
 }
 
