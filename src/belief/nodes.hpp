@@ -270,8 +270,8 @@ class Nodes {
     double seconds = 0;
   };
   Behind behind() const;
-  /// One more complete node.
-  void push(const JoinedRows& rows, double travelled);
+  /// One more complete node, with its last row at `seconds`.
+  void push(const Node& node, double seconds);
   /// The blocks from `begin` on, which are these rows, as one node, or as several where the finger goes much farther in
   /// them than in other groups: `take` is given each. They are halved so often at most.
   template <class Take>

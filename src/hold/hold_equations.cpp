@@ -330,7 +330,7 @@ HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t
   return look(seen, state.placed[row], row, finger);
 }
 
-/// d and r of one contact in this pose, with their derivatives by A, phi and s.
+/// r and t of one contact in this pose, with their derivatives by A, phi and s.
 HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const {
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   Look look{sight};
@@ -423,20 +423,20 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
   return sum;
 }
 
-/// d in length, without x and y 0; r in radians.
+/// r in length, without x and y 0; t in radians.
 ContactResidual HoldFit::residual(const HeldState& state, std::size_t row, std::size_t finger) const {
   const Look one = look(state, row, finger);
   return {one.residual.head<2>(), one.residual(2)};
 }
 
-/// n given r, both normal with mean 0: the conditional mean cov(n, r) r / var(r) and what is left of the variance.
-/// Where kappa + kappa_finger = 0, r says nothing of n.
+/// n given t, both normal with mean 0: the conditional mean cov(n, t) t / var(t) and what is left of the variance.
+/// Where kappa + kappa_finger = 0, t says nothing of n.
 HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t row, std::size_t finger) const {
   const Look one = look(state, row, finger);
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   const double variance = rows_.errors[finger].travel * rows_.errors[finger].travel;
   const double bend = one.at.curvature + contact.finger_curvature;
-  // r = a - (kappa + kappa_finger) n.
+  // t = a - (kappa + kappa_finger) n.
   const double total = one.turn_variance + bend * bend * variance;
   ContactError error;
   error.by_turn = -bend * variance / total;
@@ -444,7 +444,7 @@ HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t
   error.variance = variance * one.turn_variance / total;
   const double right = counted(one, one.residual.dot(one.information * one.residual)).right;
   if (right < 1 && bend != 0) {
-    // In an outlier the contact is wrong, n = -r / bend, or the orientation, n = 0. Both count as equally likely.
+    // In an outlier the contact is wrong, n = -t / bend, or the orientation, n = 0. Both count as equally likely.
     const double half = 0.5 * one.residual(2) / bend;
     error.mean = right * error.mean - (1 - right) * half;
     error.variance += (1 - right) * half * half;

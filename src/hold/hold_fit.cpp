@@ -15,9 +15,9 @@
 //   z_i, e_i        first contact of finger i, and the stretch of its lengths: `unknowns`
 //   s = z + L / (1 + e)   where the contact is at a row: `place_of`
 //   (A, phi)        the part at a row: world(p) = A + R(phi) (p - m): `Placed`; m: `middle_`
-//   d, r            residuals q - world(p(s)) and tau - phi - Theta(s): ContactResidual
+//   r, t            residuals q - world(p(s)) and tau - phi - Theta(s): ContactResidual
 //                   wheels add theirs, see wheel_pins.cpp
-//   C               their covariance: position, the orientation by its lever w, and the contact's error n, which moves
+//   C               their covariance: position, the orientation by its lever l, and the contact's error n, which moves
 //                   the normal by (kappa + kappa_finger) n and nothing else
 //   P, B, M         blocks of the normal matrix: of a row's pose, of pose and unknowns, of the unknowns; M - B^T P^-1 B
 //                   is what is left: `Reduced`

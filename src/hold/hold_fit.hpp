@@ -98,7 +98,7 @@ class HoldFit {
   Reduced reduced(const HeldState& state) const;
   /// The part's pose at a row: x and y of the origin of its frame, heading.
   PoseAtRow pose_at(const HeldState& state, std::size_t row) const;
-  /// d and r of a contact.
+  /// r and t of a contact.
   ContactResidual residual(const HeldState& state, std::size_t row, std::size_t finger) const;
   /// The largest residual as a share of what it may be: without noise at most 1 fits.
   double worst(const HeldState& state) const;
